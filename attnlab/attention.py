@@ -1,0 +1,104 @@
+"""One attentional behaviour at work: its clock, its percepts, its learner (AIRM, eq 1 and section "Q-learning for
+attentional regulation")."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+from typing import NamedTuple
+
+from attnlab.behaviours.base import Behaviour, Senses
+from attnlab.curiosity.base import Curiosity
+from attnlab.equations import clock_period, percept_bin, period_term
+from attnlab.exploration.base import Exploration
+from attnlab.learners.base import Learner
+from attnlab.reading import Reading
+
+
+class Activation(NamedTuple):
+    """What happened when a clock fired. ``reward`` and ``extrinsic`` are None at an episode's first activation, when
+    no period had elapsed yet."""
+    cycle: int
+    sigma: float
+    percept: int  # from 0
+    level: int
+    period: int  # newly granted, machine cycles
+    wanting: float
+    liking: float
+    released: bool
+    reward: float | None
+    extrinsic: float | None
+
+
+class Attention:
+    """The clock of one behaviour and what it learns.
+
+    ``due`` is the cycle of the next activation, ``period`` the one in force (machine cycles), ``command`` the motor
+    command held, or None.
+    """
+
+    def __init__(self, behaviour: Behaviour, periods: Sequence[int], curiosity: Curiosity, learner: Learner,
+                 reading: Reading, draw: Random):
+        self.behaviour, self.curiosity, self.learner, self.reading = behaviour, curiosity, learner, reading
+        self.periods, self.draw, self.bins = list(periods), draw, reading.percept_bins
+        self._terms = [period_term(p, min(periods), max(periods)) if max(periods) > min(periods) else 0.0
+                       for p in periods]
+        self._first = self.periods.index(min(periods))
+        self._chosen_pays = reading.reward_period == "chosen"
+        self._choose_first = self._chosen_pays or learner.on_policy
+        self._row_levels = [level * len(periods) * self.bins for level in range(len(curiosity.levels))]
+        self.memory = curiosity.memory()
+        self.start()
+
+    def start(self) -> None:
+        """Every clock fires in the first cycle of an episode, at the shortest period."""
+        self.due = 0
+        self.action = self._first
+        self.period = self.periods[self._first]
+        self.state = -1
+        self.command: tuple[float, float] | None = None
+        self.log: list[Activation] = []
+        self.wanting = self.liking = 0.0
+        if not self.reading.novelty_persists:
+            self.memory = self.curiosity.memory()
+        self.behaviour.start()
+        self.learner.start()
+
+    def activate(self, now: Senses, exploration: Exploration, learning: bool) -> None:
+        """The clock fires: look, be rewarded for the period that elapsed, learn, choose the next, command."""
+        behaviour, curiosity, learner, memory = self.behaviour, self.curiosity, self.learner, self.memory
+        sigma = behaviour.percept(now)
+        percept = percept_bin(sigma, behaviour.sigma_low, behaviour.sigma_high, self.bins)
+        wanting = self.wanting = curiosity.wanting(memory, now.body.energy)
+        liking = self.liking = curiosity.liking(memory, percept)
+        level = curiosity.level(wanting, liking)
+        state = self._row_levels[level] + self.action * self.bins + percept
+        action = learner.decide(state, exploration, self.draw) if self._choose_first else -1
+        reward = extrinsic = None
+        if self.state >= 0:
+            extrinsic = behaviour.reward(sigma, self._terms[action if self._chosen_pays else self.action])
+            reward = curiosity.mix(extrinsic, liking, wanting)
+            if learning:
+                learner.update(self.state, self.action, reward, state, action, self.period)
+        if action < 0:
+            action = learner.decide(state, exploration, self.draw)
+        curiosity.observe(memory, percept)
+        self.state, self.action = state, action
+        self.period = clock_period(True, self.periods[action], self.period)
+        self.due = now.cycle + self.period
+        released = behaviour.released(now, sigma)
+        self.command = behaviour.command(now, sigma) if released else None
+        self.log.append(Activation(now.cycle, sigma, percept, level, self.period, wanting, liking, released, reward,
+                                   extrinsic))
+
+    def died(self, cause: str, learning: bool) -> float:
+        """The robot died of ``cause``: the penalty this behaviour gets for its running period (0.0 if none)."""
+        r = self.reading
+        if self.state < 0 or (r.penalised == "responsible" and cause not in self.behaviour.charges):
+            return 0.0
+        penalty = r.penalty
+        if r.penalty_mix == "inside":
+            penalty = self.curiosity.mix(penalty, self.liking, self.wanting)
+        if learning:
+            self.learner.terminal(self.state, self.action, penalty)
+        return penalty

@@ -1,0 +1,99 @@
+"""What a behaviour is, and what it may look at when its clock fires."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from random import Random
+
+from attnlab.needs.base import Body, Need
+from attnlab.reading import Reading
+from attnlab.simulators.base import Blob, Simulator
+from attnlab.simulators.robot import FRONT, centre_distances
+
+Command = tuple[float, float]  # (v m/s, w rad/s, left positive)
+
+
+class Senses:
+    """The world and the body as a behaviour may sense them in this machine cycle.
+
+    A sensor is read when it is first asked for, and once a cycle: two behaviours that fire together share the image.
+    """
+    __slots__ = ("simulator", "body", "cycle", "_front", "_front_at", "_blobs", "_blobs_at")
+
+    def __init__(self, simulator: Simulator, body: Body):
+        self.simulator, self.body = simulator, body
+        self.start()
+
+    def start(self) -> None:
+        """Forget the last episode's readings."""
+        self.cycle = 0
+        self._front_at = self._blobs_at = -1
+
+    def front_distances(self) -> list[float]:
+        """Echoes of the 8 frontal sonars as distances from the robot's centre, m, left to right."""
+        if self._front_at != self.cycle:
+            self._front = centre_distances(self.simulator.sonar()[:len(FRONT)])
+            self._front_at = self.cycle
+        return self._front
+
+    def blobs(self, kind: str) -> list[Blob]:
+        """The cubes of this kind in view, empty sources left out."""
+        if self._blobs_at != self.cycle:
+            self._blobs = self.simulator.blobs()
+            self._blobs_at = self.cycle
+        larder = self.body.larder
+        return [blob for blob in self._blobs if blob.kind == kind and larder.has(blob.solid, self.cycle)]
+
+    def heading(self) -> float:
+        """Of the robot, from odometry, rad."""
+        return self.simulator.pose()[2]
+
+    def need(self, name: str) -> float:
+        """The value of a need, UoE."""
+        return self.body.values[self.body.index[name]]
+
+
+@dataclass(frozen=True)
+class BehaviourContext:
+    """What a behaviour is built from: ``draw`` is its own random stream, the same in every condition."""
+    reading: Reading
+    draw: Random
+
+
+class Behaviour(ABC):
+    """One attentional behaviour (AIRM): percept, releaser and motor schema.
+
+    ``sigma_low`` and ``sigma_high`` bound the percept sigma; ``charges`` are the causes of death it answers for
+    (``crash`` or the name of a need); ``needs`` are needs of its own that it brings along.
+    """
+    name: str
+    sigma_low: float = 0.0
+    sigma_high: float = 1.0
+    charges: tuple[str, ...] = ()
+
+    def __init__(self, params, context: BehaviourContext):
+        self.params, self.reading, self.draw = params, context.reading, context.draw
+
+    def needs(self) -> list[Need]:
+        """Needs that exist because of this behaviour; none by default."""
+        return []
+
+    def start(self) -> None:
+        """Called before every episode: forget what was held."""
+
+    @abstractmethod
+    def percept(self, now: Senses) -> float:
+        """sigma: what is perceived, within [sigma_low, sigma_high]. Reads, changes nothing."""
+
+    def released(self, now: Senses, sigma: float) -> bool:
+        """Is the motor schema on? Reads, changes nothing."""
+        return True
+
+    @abstractmethod
+    def command(self, now: Senses, sigma: float) -> Command | None:
+        """The motor schema, called when released: a command to hold until the next activation, or None."""
+
+    @abstractmethod
+    def reward(self, sigma: float, period: float) -> float:
+        """Extrinsic reward in [0, 1]; ``period`` is the period term of eqs 7-9 in [0, 1]. Pure."""

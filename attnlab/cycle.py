@@ -1,0 +1,57 @@
+"""The machine cycle: one function that reads like the model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from attnlab.attention import Attention
+from attnlab.behaviours.base import Senses
+from attnlab.exploration.base import Exploration
+from attnlab.fusion.base import Fusion
+from attnlab.needs.base import Body
+from attnlab.simulators.base import Simulator
+
+
+@dataclass
+class Agent:
+    """A robot with all its parts."""
+    attentions: list[Attention]
+    body: Body
+    simulator: Simulator
+    fusion: Fusion
+    max_cycles: int
+
+    def __post_init__(self):
+        self.now = Senses(self.simulator, self.body)
+
+    def start(self, x: float, y: float, heading: float) -> None:
+        """Everything as at the start of an episode, with the robot at this pose."""
+        self.simulator.place(x, y, heading)
+        self.body.start()
+        self.now.start()
+        for attention in self.attentions:
+            attention.start()
+
+
+def machine_cycle(agent: Agent, exploration: Exploration, learning: bool) -> tuple[int, str | None]:
+    """One cycle in which a clock fires, and the idle cycles until the next one does.
+
+    Returns (behaviours that were active, cause of death or None). Nothing happens in an idle cycle but motion, contact
+    and the passing of time, so they are handed to the simulator and the body in one call each.
+    """
+    now, body, attentions = agent.now, agent.body, agent.attentions
+    start = now.cycle = agent.simulator.cycle
+    # 1. Whoever's clock fires looks, is rewarded for the period that elapsed, learns, and chooses the next.
+    active = 0
+    for attention in attentions:
+        if attention.due == start:
+            attention.activate(now, exploration, learning)
+            active += 1
+    # 2. Commands are held until their behaviour looks again; all that are held become one.
+    v, w = agent.fusion.fuse([a.command for a in attentions if a.command is not None])
+    # 3. The robot moves; contact and the safety distance are tested in every cycle.
+    idle_until = min(min(a.due for a in attentions), agent.max_cycles)
+    cycles, crashed = agent.simulator.advance(v, w, body.until_death(active, idle_until - start))
+    # 4. Needs and energy change, and may end it.
+    cause = body.live(active, cycles)
+    return active, "crash" if crashed else cause

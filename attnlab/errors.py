@@ -1,0 +1,26 @@
+"""The one error a user is meant to read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class ConfigError(Exception):
+    """A setting that cannot be: shown as one line (setting, what is wrong, hint) with exit code 2, nothing written."""
+
+    def __init__(self, setting: str, problem: str, hint: str = ""):
+        super().__init__(setting, problem, hint)
+        self.setting, self.problem, self.hint = setting, problem, hint
+
+    def __str__(self) -> str:
+        line = f"{self.setting}: {self.problem}" + (f". {self.hint}" if self.hint else "")
+        return " ".join(line.split())
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A hint with the nearest right name, then all of them."""
+    names = sorted(known)
+    close = get_close_matches(str(name), names, n=1, cutoff=0.5)
+    hint = f"Did you mean '{close[0]}'? " if close else ""
+    return hint + f"Known: {', '.join(names)}"

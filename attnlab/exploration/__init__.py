@@ -1,0 +1,1 @@
+"""Exploration: which action, given the values of all."""

@@ -1,0 +1,21 @@
+"""What an exploration is."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from random import Random
+
+
+class Exploration(ABC):
+    """Chooses an action by its value."""
+    name: str
+
+    def __init__(self, params, context=None):
+        self.params = params
+
+    def start(self, episode: int) -> None:
+        """Called before each training episode, for schedules; ``episode`` counts from 0."""
+
+    @abstractmethod
+    def choose(self, values: list[float], visits: list[int], draw: Random) -> int:
+        """The index of the chosen action; ``visits`` counts how often each was tried in this state."""

@@ -1,0 +1,1 @@
+"""Fusion: one motor command of those held."""

@@ -1,0 +1,50 @@
+"""Plane geometry of solids: oriented boxes, all standing on the floor. Metres and radians throughout."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, hypot, sin
+
+
+@dataclass(frozen=True)
+class Solid:
+    """An upright box: centre (x, y), full size along its own axes, turned by yaw, from the floor to height."""
+    kind: str  # wall | obstacle | food | water | a user's own
+    x_m: float
+    y_m: float
+    length_m: float
+    width_m: float
+    yaw_rad: float = 0.0
+    height_m: float = 0.5
+
+    def corners(self) -> list[tuple[float, float]]:
+        """The four corners, counter-clockwise, in the world frame."""
+        c, s = cos(self.yaw_rad), sin(self.yaw_rad)
+        half = ((1, 1), (-1, 1), (-1, -1), (1, -1))
+        return [(self.x_m + c * i * self.length_m / 2 - s * j * self.width_m / 2,
+                 self.y_m + s * i * self.length_m / 2 + c * j * self.width_m / 2) for i, j in half]
+
+
+def distance(x: float, y: float, solid: Solid) -> float:
+    """From a point to the solid's footprint; 0 inside."""
+    c, s = cos(solid.yaw_rad), sin(solid.yaw_rad)
+    dx, dy = x - solid.x_m, y - solid.y_m
+    along, across = abs(c * dx + s * dy) - solid.length_m / 2, abs(-s * dx + c * dy) - solid.width_m / 2
+    return hypot(max(along, 0.0), max(across, 0.0))
+
+
+def clearance(x: float, y: float, solids: tuple[Solid, ...]) -> float:
+    """Distance from a point to the nearest solid; infinite without solids."""
+    return min((distance(x, y, solid) for solid in solids), default=float("inf"))
+
+
+def overlap(one: Solid, two: Solid) -> bool:
+    """Do two footprints share area (separating axis theorem; touching edges do not count)?"""
+    for box in (one, two):
+        for angle in (box.yaw_rad, box.yaw_rad + 1.5707963267948966):
+            axis = cos(angle), sin(angle)
+            first = [axis[0] * x + axis[1] * y for x, y in one.corners()]
+            second = [axis[0] * x + axis[1] * y for x, y in two.corners()]
+            if max(first) <= min(second) + 1e-9 or max(second) <= min(first) + 1e-9:
+                return False
+    return True

@@ -1,0 +1,1 @@
+"""Learners: how good is each period in each state."""

@@ -1,0 +1,63 @@
+"""What a learner is."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from random import Random
+
+from attnlab.exploration.base import Exploration
+from attnlab.reading import Reading
+
+
+@dataclass(frozen=True)
+class LearnerContext:
+    """What a learner is built from: one learner a behaviour.
+
+    A state is ``(level * len(periods) + period) * bins + percept``, all counted from 0; an action is an index into
+    ``periods`` (machine cycles).
+    """
+    reading: Reading
+    behaviour: str
+    levels: Sequence[str]
+    periods: Sequence[int]
+    bins: int
+    draw: Random
+
+    @property
+    def states(self) -> int:
+        return len(self.levels) * len(self.periods) * self.bins
+
+
+class Learner(ABC):
+    """Learns the next period of one behaviour's clock. ``q`` and ``visits`` are lists by state, then action."""
+    name: str
+    learns = True
+    on_policy = False  # does update need the next action? Then that is chosen before the update, otherwise after
+
+    def __init__(self, params, context: LearnerContext):
+        self.params, self.context = params, context
+        self.actions = len(context.periods)
+        self.q = [[0.0] * self.actions for _ in range(context.states)]
+        self.visits = [[0] * self.actions for _ in range(context.states)]
+
+    def values(self, state: int) -> list[float]:
+        """The value of each action in a state. Reads, changes nothing."""
+        return self.q[state]
+
+    def decide(self, state: int, exploration: Exploration, draw: Random) -> int:
+        """The next action."""
+        return exploration.choose(self.values(state), self.visits[state], draw)
+
+    def start(self) -> None:
+        """Called before every episode."""
+
+    @abstractmethod
+    def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
+        """Learn from one period that ended: it was chosen in ``state``, lasted ``cycles`` and led to ``next_state``,
+        where ``next_action`` was chosen (-1 unless ``on_policy``)."""
+
+    @abstractmethod
+    def terminal(self, state: int, action: int, reward: float) -> None:
+        """Learn from the period in which the robot died; nothing comes after it."""

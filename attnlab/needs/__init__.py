@@ -1,0 +1,1 @@
+"""Needs: what the robot must keep within bounds to live."""

@@ -1,0 +1,130 @@
+"""Needs, energy and the sources that satisfy them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from math import ceil
+
+from attnlab.equations import energy_after_cycle, need_after_cycle
+from attnlab.reading import Reading
+
+
+@dataclass(frozen=True)
+class Need:
+    """A need that grows by ``per_activation`` for each active behaviour and ``per_cycle`` each cycle (UoE).
+
+    ``death_at``: the robot dies when it reaches this; None if never. ``feeds_energy``: is what satisfies it energy?
+    """
+    name: str
+    start: float
+    per_activation: float
+    per_cycle: float = 0.0
+    death_at: float | None = None
+    feeds_energy: bool = False
+
+
+@dataclass
+class Larder:
+    """How much is left in each source (by index of its solid), and when an empty one fills again."""
+    reading: Reading
+    eaten: dict[int, int] = field(default_factory=dict)
+    full_again: dict[int, int] = field(default_factory=dict)
+
+    def has(self, solid: int, cycle: int) -> bool:
+        """Is there anything left in this source?"""
+        return self.reading.food_supply == "endless" or cycle >= self.full_again.get(solid, 0)
+
+    def take(self, solid: int, cycle: int) -> None:
+        """One meal from this source."""
+        r = self.reading
+        if r.food_supply == "endless":
+            return
+        self.eaten[solid] = self.eaten.get(solid, 0) + 1
+        if self.eaten[solid] % r.food_portions == 0:
+            respawns = r.food_supply == "respawn"
+            self.full_again[solid] = cycle + r.food_respawn_cycles if respawns else r.max_cycles + 1
+
+
+class Body:
+    """Energy and needs of one robot during one episode.
+
+    ``values`` are the needs in the order of ``needs``; ``energy`` is E(t), UoE; ``meals`` counts what was consumed.
+    """
+
+    def __init__(self, needs: list[Need], energy_start: float, e_u: float, e_nb: float, reading: Reading):
+        self.needs, self.reading = needs, reading
+        self.index = {need.name: i for i, need in enumerate(needs)}
+        self.e_u, self.e_nb, self.energy_start = e_u, e_nb, energy_start
+        self.energy = energy_start
+        self._deadly = [(i, need) for i, need in enumerate(needs) if need.death_at is not None]
+        self._energy_floor = reading.energy_min if reading.energy_death else None
+        self._rates = [(need.per_activation, need.per_cycle, need.feeds_energy) for need in needs]
+        self.start()
+
+    def start(self) -> None:
+        """The state at the start of an episode."""
+        if not self.reading.energy_carry_over:
+            self.energy = self.energy_start
+        self.values = [need.start for need in self.needs]
+        self.meals = [0] * len(self.needs)
+        self._eaten = [0.0] * len(self.needs)
+        self._ate = False
+        self.larder = Larder(self.reading)
+
+    def consume(self, name: str, amount: float) -> None:
+        """Something satisfies this need by ``amount`` UoE in this cycle."""
+        i = self.index[name]
+        self._eaten[i] += amount
+        self.meals[i] += 1
+        self._ate = True
+
+    def until_death(self, active: int, cycles: int) -> int:
+        """How many of the next ``cycles`` (the first with ``active`` behaviours, then none) the robot lives,
+        counting the one it dies in."""
+        eaten = self._eaten
+        for i, need in self._deadly:
+            left = need.death_at - need_after_cycle(self.values[i], need.per_activation, active, eaten[i])
+            if left - need.per_cycle <= 0:
+                return 1
+            if need.per_cycle > 0:
+                cycles = min(cycles, ceil(left / need.per_cycle))
+        if self._energy_floor is not None:
+            fed = sum(eaten[i] for i, rate in enumerate(self._rates) if rate[2])
+            left = energy_after_cycle(self.energy, 0.0, self.e_nb, active, fed) - self._energy_floor
+            if left - self.e_u < 0:
+                return 1
+            if self.e_u > 0:
+                cycles = min(cycles, int(left / self.e_u) + 1)
+        return cycles
+
+    def live(self, active: int, cycles: int) -> str | None:
+        """Eqs 5, 6 and 10 over ``cycles`` cycles, the first with ``active`` behaviours; the cause of death, or None."""
+        values, eaten = self.values, self._eaten
+        fed = 0.0
+        for i, (per_activation, per_cycle, feeds) in enumerate(self._rates):
+            values[i] = need_after_cycle(values[i], per_activation, active, eaten[i]) + per_cycle * cycles
+            if feeds:
+                fed += eaten[i]
+        self.energy = energy_after_cycle(self.energy, self.e_u * cycles, self.e_nb, active, fed)
+        if self._ate:
+            self._eaten = [0.0] * len(values)
+            self._ate = False
+        for i, need in self._deadly:
+            if values[i] >= need.death_at:
+                return need.name
+        if self._energy_floor is not None and self.energy < self._energy_floor:
+            return "energy"
+        return None
+
+
+class Needs(ABC):
+    """Builds the body of a robot."""
+    name: str
+
+    def __init__(self, params, reading: Reading):
+        self.params, self.reading = params, reading
+
+    @abstractmethod
+    def body(self, more: list[Need]) -> Body:
+        """A body with this part's needs and ``more``, those that behaviours bring."""

@@ -1,0 +1,19 @@
+"""Where the shipped configuration is: beside the package in a checkout, inside it in a wheel."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+def conf_dir() -> Path:
+    """The folder of config groups."""
+    shipped = PACKAGE / "_conf"
+    return shipped if shipped.is_dir() else PACKAGE.parent / "conf"
+
+
+def plugins_dir() -> Path:
+    """The folder of the plugins that are shipped as examples."""
+    shipped = PACKAGE / "_plugins"
+    return shipped if shipped.is_dir() else PACKAGE.parent / "plugins"

@@ -1,0 +1,90 @@
+"""Readings: every sentence that the paper leaves open is a setting here, and a reading is a named set of them.
+
+The defaults are the reading ``inferred``; conf/reading/ holds the others as differences to it. Where the paper's own
+numbers decide (Table 5 needs about 1150 cycles an episode, for instance) the docstring of the field says so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from attnlab.errors import ConfigError
+from attnlab.settings import setting
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One way to read the paper. Units are in the names; UoE: units of energy, mc: machine cycles."""
+
+    max_cycles: int = setting(1150, "cycles an episode; Table 4 says 1500, the activations of Table 5 need about 1150",
+                              unit="mc", low=1)
+    dt_s: float = setting(0.1565, "length of a cycle (180 s an episode)", unit="s", above=0, high=1.0)
+    # energy
+    energy_start: float = setting(4600.0, "E(0)", unit="UoE", low=0)
+    energy_max: float = setting(4600.0, "E_max of eq 11; Table 4 says 4 * max_cycles", unit="UoE", above=0)
+    energy_well: float = setting(3067.0, "E_well of eq 11: 2/3 of E_max", unit="UoE", low=0)
+    energy_carry_over: bool = setting(False, "start an episode with the energy the last one ended with")
+    energy_death: bool = setting(False, "die when energy falls below energy_min")
+    energy_min: float = setting(300.0, "E_min of Table 4", unit="UoE", low=0)
+    # needs
+    need_k: float = setting(1.0, "k of eqs 5, 6: growth of a need for each active behaviour", unit="UoE", low=0)
+    need_start: float = setting(300.0, "hunger and thirst at the start of an episode", unit="UoE", low=0)
+    need_max: float = setting(1500.0, "largest hunger and thirst, sigma_max of EAT and DRINK", unit="UoE", above=0)
+    need_min: float = setting(300.0, "sigma_min of EAT and DRINK in Table 4", unit="UoE", low=0)
+    need_death: bool = setting(True, "die when hunger or thirst reaches need_max")
+    releaser_threshold: float = setting(300.0, "EAT and DRINK are released at this need (the text says sigma_max)",
+                                        unit="UoE", low=0)
+    # percepts
+    avoid_sigma_max_m: float = setting(1.0, "sigma_max of AVOID, from the robot's centre", unit="m", above=0)
+    avoid_sigma_min_m: float = setting(0.4, "sigma_min of AVOID in Table 4", unit="m", low=0)
+    percept_domain: str = setting("zero_to_max", "domain cut into percepts: [0, max] as the text says, or [min, max]",
+                                  choices=("zero_to_max", "min_to_max"))
+    percept_bins: int = setting(6, "equal intervals of the domain", low=1, high=100)
+    # reward and learning
+    reward_period: str = setting("elapsed", "p of eqs 7-9: the period that elapsed, or the one newly chosen",
+                                 choices=("elapsed", "chosen"))
+    penalty: float = setting(-1500.0, "reward when the robot dies", unit="UoR", high=0)
+    penalised: str = setting("responsible", "who gets the penalty: the behaviour in charge of what killed the robot "
+                             "(crash: AVOID, hunger: EAT, thirst: DRINK), or all (literal eqs 7-9)",
+                             choices=("responsible", "all"))
+    penalty_mix: str = setting("outside", "is the penalty outside of eq 4, or inside (scaled by 1 - w)",
+                               choices=("outside", "inside"))
+    q_update: str = setting("decision", "gamma once a decision, or gamma^period (semi-Markov)",
+                            choices=("decision", "smdp"))
+    # curiosity
+    novelty_window: int = setting(10, "NV_tot of eq 12, observations", unit="observations", low=1, high=100_000)
+    novelty_persists: bool = setting(False, "keep the novelty window from one episode to the next")
+    novelty_counts_current: bool = setting(False, "count the current percept among the NV_tot observations")
+    non_curious: str = setting("plain", "curiosity=none: no curiosity in the state (plain), or w = 0 with the states "
+                               "of the curious robot (same_states, an ablation)", choices=("plain", "same_states"))
+    # body and world
+    crash: str = setting("contact", "the footprint touches something, or also the front sonars' minimum (from the "
+                         "centre) falls below safety_distance_m", choices=("contact", "safety_distance"))
+    safety_distance_m: float = setting(0.4, "safety distance from the robot's centre", unit="m", above=0, high=2)
+    v_max_m_s: float = setting(0.4, "largest linear speed", unit="m/s", above=0, high=2)
+    w_max_rad_s: float = setting(1.5, "largest angular speed", unit="rad/s", above=0, high=10)
+    stop_distance_m: float = setting(0.35, "AVOID's speed falls from v_max at sigma_max to 0 here", unit="m", low=0)
+    food_reach_m: float = setting(0.75, "a source is consumed when its blob looks nearer than this to the centre",
+                                  unit="m", above=0)
+    meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind", unit="mc", low=1)
+    food_supply: str = setting("endless", "sources are endless, empty after food_portions meals (depletion), or fill "
+                               "again after food_respawn_cycles (respawn)", choices=("endless", "depletion", "respawn"))
+    food_portions: int = setting(5, "meals in a source, unless endless", low=1)
+    food_respawn_cycles: int = setting(300, "cycles until an empty source is full again", unit="mc", low=1)
+    start_pose: str = setting("random", "a random free pose each episode (from the seed), or the same one always",
+                              choices=("random", "fixed"))
+    validation_exploration: str = setting("greedy", "how actions are chosen in validation episodes",
+                                          choices=("greedy", "softmax"))
+
+    def __post_init__(self):
+        if self.energy_well >= self.energy_max:
+            raise ConfigError("energy_well", f"is {self.energy_well}, must be below energy_max ({self.energy_max})")
+        if self.need_start >= self.need_max and self.need_death:
+            raise ConfigError("need_start", f"is {self.need_start}, must be below need_max ({self.need_max})",
+                              "The robot would be dead at the start")
+        if self.avoid_sigma_min_m >= self.avoid_sigma_max_m:
+            raise ConfigError("avoid_sigma_min_m", "must be below avoid_sigma_max_m")
+        if self.stop_distance_m >= self.avoid_sigma_max_m:
+            raise ConfigError("stop_distance_m", "must be below avoid_sigma_max_m")
+        if self.need_min >= self.need_max:
+            raise ConfigError("need_min", "must be below need_max")

@@ -1,0 +1,175 @@
+"""The one door: built-in parts, files in plugins/ and pip packages register here, in the same way.
+
+    @register("curiosity", "mine")
+    class Mine(Curiosity):
+        '''What it is, its source, what it draws at random.'''
+        @dataclass
+        class Params: ...
+
+A module that fails to load is kept in :data:`failures`, shown by ``python -m attnlab.parts``, and raised with its
+cause when somebody asks for it by name; the others go on.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import inspect
+import os
+import pkgutil
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from attnlab import settings
+from attnlab.errors import ConfigError, nearest
+from attnlab.paths import plugins_dir
+
+GROUPS = {  # folder of conf/ -> package of attnlab that holds the built-in parts
+    "simulator": "simulators", "world": "worlds", "behaviours": "behaviours", "needs": "needs", "fusion": "fusion",
+    "curiosity": "curiosity", "learner": "learners", "exploration": "exploration",
+}
+ENTRY_POINTS = "attnlab.plugins"
+
+
+@dataclasses.dataclass
+class NoParams:
+    """A part without settings."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Spec:
+    """A registered part: where it comes from and what it takes."""
+    group: str
+    name: str
+    cls: type
+    presets: Mapping[str, Mapping[str, Any]]
+    origin: str
+
+    @property
+    def params(self) -> type:
+        return getattr(self.cls, "Params", NoParams)
+
+    def nodes(self) -> dict[str, dict]:
+        """Config options of this part by option name: the part with its defaults, and its presets."""
+        base = settings.defaults_of(self.params)
+        nodes = {self.name: {"name": self.name, **base}}
+        for preset, values in self.presets.items():
+            nodes[preset] = {"name": preset, "part": self.name, **base, **values}
+        return nodes
+
+
+parts: dict[tuple[str, str], Spec] = {}
+failures: dict[str, tuple[str, BaseException]] = {}  # module or entry point -> (file, what it raised)
+_loaded = False
+
+
+def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] | None = None) -> Callable:
+    """Class decorator: ``group=name`` now means this class. ``presets`` are further options: name -> parameters."""
+    def door(cls: type) -> type:
+        origin = inspect.getsourcefile(cls) or cls.__module__
+        if group not in GROUPS:
+            raise ValueError(f"{origin}: there is no group '{group}'. {nearest(group, GROUPS)}")
+        params = getattr(cls, "Params", NoParams)
+        if not dataclasses.is_dataclass(params):
+            raise TypeError(f"{origin}: {cls.__name__}.Params must be a dataclass with typed fields")
+        for option in (name, *(presets or {})):
+            old = find(group, option)
+            if old is not None and (old.cls.__module__, old.cls.__qualname__) != (cls.__module__, cls.__qualname__):
+                raise ValueError(f"{origin}: {group} '{option}' is already registered by {old.origin}")
+        parts[group, name] = Spec(group, name, cls, presets or {}, origin)
+        return cls
+    return door
+
+
+def find(group: str, option: str) -> Spec | None:
+    """The part behind an option name (its own or a preset's), or None."""
+    for spec in parts.values():
+        if spec.group == group and (option == spec.name or option in spec.presets):
+            return spec
+    return None
+
+
+def get(group: str, node: Mapping[str, Any], where: str) -> Spec:
+    """The part that a config node names."""
+    name = node.get("part") or node.get("name")
+    spec = parts.get((group, str(name)))
+    if spec is None:
+        raise unknown(group, str(name), where)
+    return spec
+
+
+def unknown(group: str, name: str, where: str, known: list[str] | None = None) -> ConfigError:
+    """The error for a name nobody registered: the cause, if a plugin of that name failed to load."""
+    for module, (file, cause) in failures.items():
+        if module.rpartition(".")[2] == name or f"'{name}'" in str(cause):
+            return ConfigError(f"{where}={name}", f"{file} did not load: {describe(cause)}", "Mend that file")
+    names = known or [option for spec in parts.values() if spec.group == group for option in spec.nodes()]
+    return ConfigError(f"{where}={name}", f"no {group} is called '{name}'", nearest(name, names))
+
+
+def describe(cause: BaseException) -> str:
+    """One line: the error's type, message, and for a syntax error its line."""
+    line = f" (line {cause.lineno})" if isinstance(cause, SyntaxError) and cause.lineno else ""
+    text = cause.msg if isinstance(cause, SyntaxError) else str(cause)
+    return f"{type(cause).__name__}: {text}{line}"
+
+
+def build_params(group: str, node: Mapping[str, Any], where: str) -> tuple[Spec, Any]:
+    """The part a node names, and its checked parameters."""
+    if not isinstance(node, Mapping) or not (node.get("part") or node.get("name")):
+        raise ConfigError(where, f"expected the name of a {group}, got {node!r}",
+                          nearest("", [s.name for s in parts.values() if s.group == group]))
+    spec = get(group, node, where)
+    values = {key: value for key, value in node.items() if key not in ("name", "part")}
+    return spec, settings.build(spec.params, values, where)
+
+
+def make(group: str, node: Mapping[str, Any], context: Any, where: str = "") -> Any:
+    """Construct the part that a config node names; its class is called with (params, context)."""
+    spec, params = build_params(group, node, where or group)
+    part = spec.cls(params, context)
+    part.name = node["name"]
+    return part
+
+
+def plugin_folders() -> list[Path]:
+    """Where drop-in parts live: shipped with the package, in the folder one works in, and in $ATTNLAB_PLUGINS."""
+    folders = [plugins_dir(), Path.cwd() / "plugins", *map(Path, os.environ.get("ATTNLAB_PLUGINS", "").split(os.pathsep))]
+    unique = dict.fromkeys(folder.resolve() for folder in folders if str(folder) not in ("", ".") and folder.is_dir())
+    return list(unique)
+
+
+def load_all() -> None:
+    """Import every built-in part, every plugins/ file and every ``attnlab.plugins`` entry point, once a process."""
+    global _loaded
+    if _loaded:
+        return
+    _loaded = True
+    for package_name in GROUPS.values():
+        package = importlib.import_module(f"attnlab.{package_name}")
+        for module in pkgutil.iter_modules(package.__path__):
+            importlib.import_module(f"attnlab.{package_name}.{module.name}")
+    plugins = importlib.import_module("attnlab.plugins")
+    for folder in plugin_folders():
+        if str(folder) not in plugins.__path__:
+            plugins.__path__.append(str(folder))
+        for file in sorted(folder.glob("*.py")):
+            if not file.name.startswith("_"):
+                _load(f"attnlab.plugins.{file.stem}", str(file))
+    from importlib.metadata import entry_points
+    for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda p: p.name):
+        _load(point.value.partition(":")[0], f"entry point {point.name} ({point.value})", point.name)
+
+
+def _load(module: str, origin: str, alias: str | None = None) -> None:
+    before = dict(parts)
+    try:
+        if module in sys.modules and not alias and sys.modules[module].__file__ != origin:
+            raise ImportError(f"another plugin file has the same name: {sys.modules[module].__file__}")
+        importlib.import_module(module)
+    except (Exception, SystemExit) as cause:  # noqa: BLE001  a plugin may raise anything; it is kept, and shown
+        parts.clear()
+        parts.update(before)
+        failures[alias or module] = (origin, cause)

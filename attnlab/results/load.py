@@ -1,0 +1,145 @@
+"""Read a study back: ``load("outputs/cr_vs_ncr").episodes`` is a pandas frame over all complete runs."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from attnlab.errors import ConfigError, nearest
+from attnlab.results.files import read_json
+from attnlab.results.schema import SCHEMA_VERSION, TABLES
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def load(study: str | Path) -> Study:
+    """The study in this folder (or of this name in outputs/). Raises ConfigError if there is none."""
+    path = Path(study)
+    if not path.is_dir() and (Path("outputs") / path).is_dir():
+        path = Path("outputs") / path
+    if not path.is_dir():
+        known = sorted(p.name for p in Path("outputs").glob("*") if p.is_dir())
+        raise ConfigError(str(study), "there is no such study", nearest(path.name, known) if known else
+                          "Run one first: python -m attnlab +experiment=smoke")
+    return Study(path)
+
+
+def state_of(folder: Path) -> tuple[str, str, dict]:
+    """(status, why, run.json) of a run folder. ``damaged``: it says complete, but a table is missing or broken."""
+    about = read_json(folder / "run.json")
+    if about is None:
+        missing = "no run.json" if not (folder / "run.json").exists() else "run.json is not readable"
+        return "incomplete", f"{missing}; the run was interrupted or is not one", {}
+    status = str(about.get("status"))
+    if status == "complete":
+        if about.get("schema") != SCHEMA_VERSION:
+            return "damaged", (f"tables of schema {about.get('schema')}, this version reads schema {SCHEMA_VERSION}; "
+                               "run it again with fresh=true"), about
+        for table in TABLES:
+            problem = _check_parquet(folder / f"{table}.parquet")
+            if problem:
+                return "damaged", problem, about
+    error = (about.get("error") or "").strip().splitlines()
+    return status, error[-1] if error else "", about
+
+
+def _check_parquet(path: Path) -> str:
+    """Empty if the file has a Parquet head and tail, else what is wrong. Cheap: reads 8 bytes."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(4)
+            file.seek(-4, 2)
+            tail = file.read(4)
+    except OSError:
+        return f"{path.name} is missing or cut off"
+    return "" if head == tail == b"PAR1" else f"{path.name} is cut off or no Parquet file"
+
+
+class Study:
+    """The results of a study. Frames hold the rows of all complete runs; ``runs`` has a row for every run folder."""
+
+    def __init__(self, path: Path):
+        self.path = path
+        self._states = {folder.name: state_of(folder) for folder in sorted(path.iterdir())
+                        if folder.is_dir() and _looks_like_run(folder)}
+        self._broken: dict[str, str] = {}
+
+    @cached_property
+    def runs(self) -> pd.DataFrame:
+        """One row a run: run, status, why, seed, curiosity, key, wall_s, cycles, error and the swept settings."""
+        import pandas as pd
+        rows = []
+        for name, (status, why, about) in self._states.items():
+            if name in self._broken:
+                status, why = "damaged", self._broken[name]
+            rows.append({"run": name, "status": status, "why": why, "seed": about.get("seed"),
+                         "curiosity": about.get("curiosity"), "key": about.get("key"), "wall_s": about.get("wall_s"),
+                         "cpu_s": about.get("cpu_s"), "cycles": about.get("cycles"), "error": about.get("error"),
+                         "overrides": about.get("overrides"), **about.get("swept", {})})
+        columns = ["run", "status", "why", "seed", "curiosity", "key", "wall_s", "cpu_s", "cycles", "error",
+                   "overrides"]
+        return pd.DataFrame(rows, columns=columns if not rows else None)
+
+    @cached_property
+    def swept(self) -> list[str]:
+        """Names of the settings that differ on purpose between runs (but for seed and curiosity)."""
+        names = {name for _, _, about in self._states.values() for name in about.get("swept", {})}
+        return sorted(names)
+
+    @property
+    def complete(self) -> list[str]:
+        """Names of the complete runs."""
+        return [name for name, (status, _, _) in self._states.items()
+                if status == "complete" and name not in self._broken]
+
+    def _table(self, table: str) -> pd.DataFrame:
+        import pandas as pd
+        frames = []
+        for name in self.complete:
+            try:
+                frame = pd.read_parquet(self.path / name / f"{table}.parquet")
+            except Exception as cause:  # noqa: BLE001  whatever the reader makes of a damaged file, the others go on
+                self._broken[name] = f"{table}.parquet: {cause}"
+                self.__dict__.pop("runs", None)
+                continue
+            if "episode" in frame and table != "cycles":
+                for setting in self.swept:
+                    if setting not in frame:
+                        frame[setting] = self._setting(name, setting)
+            frames.append(frame)
+        frames = [frame for frame in frames if len(frame)] or frames[:1]
+        return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
+
+    def _setting(self, run: str, setting: str):
+        """A setting of a run that was not swept when it ran, from its config."""
+        import yaml
+        node = yaml.safe_load((self.path / run / "config.yaml").read_text())
+        for part in setting.split("."):
+            node = node.get(part) if isinstance(node, dict) else None
+        return node.get("name") if isinstance(node, dict) else node
+
+    @cached_property
+    def episodes(self) -> pd.DataFrame:
+        return self._table("episodes")
+
+    @cached_property
+    def behaviours(self) -> pd.DataFrame:
+        return self._table("behaviours")
+
+    @cached_property
+    def policy(self) -> pd.DataFrame:
+        return self._table("policy")
+
+    @cached_property
+    def cycles(self) -> pd.DataFrame:
+        return self._table("cycles")
+
+    @cached_property
+    def coverage(self) -> pd.DataFrame:
+        return self._table("coverage")
+
+
+def _looks_like_run(folder: Path) -> bool:
+    return any((folder / name).exists() for name in ("run.json", "config.yaml", *(f"{t}.parquet" for t in TABLES)))

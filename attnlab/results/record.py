@@ -1,0 +1,156 @@
+"""From what happened in an episode to rows of the five tables. Runs once an episode, off the hot path."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import NamedTuple
+
+import numpy as np
+
+from attnlab.attention import Attention
+from attnlab.cycle import Agent
+from attnlab.equations import safety as safety_at
+from attnlab.identities import check_clock, check_safety
+from attnlab.results.schema import CELL_M
+from attnlab.worlds.base import Layout
+
+
+class Event(NamedTuple):
+    """A cycle in which somebody was active, with body and motion after the idle cycles that followed it."""
+    cycle: int
+    active: int
+    energy: float
+    needs: tuple[float, ...]
+
+
+class Recorder:
+    """Collects rows of one run as lists by column; ``tables`` is handed to the writer at the end."""
+
+    def __init__(self, run: str, seed: int, curiosity: str, swept: dict, layout: Layout, check: bool):
+        self.run_columns = {"run": run, "seed": seed, "curiosity": curiosity}
+        self.swept, self.check = swept, check
+        self.tables: dict[str, dict[str, list]] = {name: defaultdict(list) for name in
+                                                   ("episodes", "behaviours", "policy", "cycles", "coverage")}
+        self._cells = (int(np.ceil(layout.width_m / CELL_M - 1e-9)), int(np.ceil(layout.depth_m / CELL_M - 1e-9)))
+        self._visits: dict[str, np.ndarray] = {}
+
+    def _add(self, table: str, **row) -> None:
+        columns = self.tables[table]
+        for name, value in row.items():
+            columns[name].append(value)
+
+    def episode(self, agent: Agent, phase: str, episode: int, events: list[Event], death: str | None,
+                penalties: list[float], full: bool) -> None:
+        """Rows of one episode; ``full`` stores its cycles too."""
+        body, n = agent.body, agent.simulator.cycle
+        at = np.array([event.cycle for event in events])
+        lengths = np.diff(at, append=n)
+        remaining = np.repeat(at + lengths, lengths) - np.arange(n) - 1
+        energy = np.repeat([event.energy for event in events], lengths) + body.e_u * remaining
+        needs = {need.name: np.repeat([event.needs[i] for event in events], lengths) - need.per_cycle * remaining
+                 for i, need in enumerate(body.needs)}
+        safety = self._safety(agent, n)
+        path = agent.simulator.trace[:n + 1]
+        steps = np.diff(path[:, :2], axis=0)
+        if self.check:
+            for attention in agent.attentions:
+                check_clock([a.cycle for a in attention.log], [a.period for a in attention.log], n)
+        means = {f"{name}_{what}": float(values.mean() if what == "mean" else values.max())
+                 for name, values in needs.items() for what in ("mean", "max")}
+        wanting = _held(agent.attentions[0], n, [a.wanting for a in agent.attentions[0].log])
+        self._add("episodes", **self.run_columns, phase=phase, episode=episode, cycles=n,
+                  survival=n / agent.max_cycles, death=death or "none", active_cycles=len(events),
+                  meals=_meals(body, "hunger"), drinks=_meals(body, "thirst"),
+                  safety_mean=None if safety is None else float(safety.mean()),
+                  safety_min=None if safety is None else float(safety.min()),
+                  safety_max=None if safety is None else float(safety.max()),
+                  energy_mean=float(energy.mean()), energy_min=float(energy.min()), energy_max=float(energy.max()),
+                  **{"hunger_mean": None, "hunger_max": None, "thirst_mean": None, "thirst_max": None, **means},
+                  wanting_mean=float(wanting.mean()), path_m=float(np.hypot(steps[:, 0], steps[:, 1]).sum()),
+                  **self.swept)
+        for attention, penalty in zip(agent.attentions, penalties, strict=True):
+            self._behaviour(attention, phase, episode, penalty)
+        self._cover(phase, path[1:])
+        if full:
+            self._cycles(agent, phase, episode, path[1:], needs, energy, wanting, safety)
+
+    def _safety(self, agent: Agent, n: int) -> np.ndarray | None:
+        """Eq (13) in every cycle, from what AVOID last perceived; None if nobody answers for crashes."""
+        guard = next((a for a in agent.attentions if "crash" in a.behaviour.charges), None)
+        if guard is None:
+            return None
+        shortest, longest = min(guard.periods), max(guard.periods)
+        if longest == shortest:
+            return None
+        values = [safety_at(a.sigma, guard.behaviour.sigma_high, a.period, shortest, longest) for a in guard.log]
+        safety = _held(guard, n, values)
+        if self.check:
+            check_safety(float(safety.mean()), n, len(guard.log), longest, shortest)
+        return safety
+
+    def _behaviour(self, attention: Attention, phase: str, episode: int, penalty: float) -> None:
+        log = attention.log
+        paid = [a for a in log if a.reward is not None]
+        self._add("behaviours", **self.run_columns, phase=phase, episode=episode, behaviour=attention.behaviour.name,
+                  activations=len(log), releases=sum(a.released for a in log),
+                  reward=sum(a.reward for a in paid) + penalty,
+                  reward_extrinsic=sum(a.extrinsic for a in paid) + penalty, penalty=penalty,
+                  liking_mean=sum(a.liking for a in log) / len(log), period_mean=sum(a.period for a in log) / len(log),
+                  **self.swept)
+
+    def _cover(self, phase: str, path: np.ndarray) -> None:
+        nx, ny = self._cells
+        i = np.clip((path[:, 0] / CELL_M).astype(np.int64), 0, nx - 1)
+        j = np.clip((path[:, 1] / CELL_M).astype(np.int64), 0, ny - 1)
+        visits = np.bincount(i * ny + j, minlength=nx * ny)
+        self._visits[phase] = self._visits.get(phase, 0) + visits
+
+    def _cycles(self, agent: Agent, phase: str, episode: int, path: np.ndarray, needs: dict, energy: np.ndarray,
+                wanting: np.ndarray, safety: np.ndarray | None) -> None:
+        n, dt = len(path), agent.simulator.dt_s
+        before = agent.simulator.trace[:n]
+        turn = (path[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
+        columns = self.tables["cycles"]
+        rows = {"run": [self.run_columns["run"]] * n, "phase": [phase] * n, "episode": [episode] * n,
+                "cycle": range(n), "x_m": path[:, 0], "y_m": path[:, 1], "heading_rad": path[:, 2],
+                "v_m_s": np.hypot(path[:, 0] - before[:, 0], path[:, 1] - before[:, 1]) / dt, "w_rad_s": turn / dt,
+                "hunger": needs.get("hunger", [None] * n), "thirst": needs.get("thirst", [None] * n),
+                "energy": energy, "wanting": wanting, "safety": [None] * n if safety is None else safety}
+        rows.update({name: values for name, values in needs.items() if name not in rows})
+        for attention in agent.attentions:
+            name, log = attention.behaviour.name, attention.log
+            active = np.zeros(n, bool)
+            active[[a.cycle for a in log]] = True
+            rows[f"{name}_active"] = active
+            rows[f"{name}_period"] = _held(attention, n, [a.period for a in log])
+            rows[f"{name}_percept"] = _held(attention, n, [a.percept + 1 for a in log])
+            levels = attention.curiosity.levels
+            rows[f"{name}_level"] = [levels[i] for i in _held(attention, n, [a.level for a in log])]
+        for name, values in rows.items():
+            columns[name].extend(values.tolist() if isinstance(values, np.ndarray) else values)
+
+    def finish(self, agent: Agent) -> dict[str, dict[str, list]]:
+        """All tables, with what was learned and where the robot has been."""
+        run = self.run_columns["run"]
+        for attention in agent.attentions:
+            learner, periods = attention.learner, attention.periods
+            states = ((level, period, percept + 1) for level in attention.curiosity.levels for period in periods
+                      for percept in range(attention.bins))
+            for state, (level, period, percept) in enumerate(states):
+                for action, (q, visits) in enumerate(zip(learner.values(state), learner.visits[state], strict=True)):
+                    self._add("policy", run=run, behaviour=attention.behaviour.name, curiosity_level=level,
+                              period=period, percept=percept, action=periods[action], q=q, visits=visits)
+        for phase, visits in self._visits.items():
+            for cell in np.flatnonzero(visits).tolist():
+                self._add("coverage", run=run, phase=phase, x_cell=cell // self._cells[1],
+                          y_cell=cell % self._cells[1], visits=int(visits[cell]))
+        return self.tables
+
+
+def _held(attention: Attention, n: int, values: list) -> np.ndarray:
+    """What was set at each activation, in every cycle until the next one."""
+    return np.repeat(values, np.diff([a.cycle for a in attention.log], append=n))
+
+
+def _meals(body, need: str) -> int | None:
+    return body.meals[body.index[need]] if need in body.index else None

@@ -1,0 +1,120 @@
+"""One run: training episodes, then validation episodes, to tidy tables in a folder."""
+
+from __future__ import annotations
+
+import os
+import platform
+import time
+import traceback
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from attnlab import __version__
+from attnlab.cycle import Agent, machine_cycle
+from attnlab.experiment import Experiment
+from attnlab.exploration.base import Exploration
+from attnlab.identities import check_balance
+from attnlab.results.files import write_bytes, write_json, write_parquet
+from attnlab.results.record import Event, Recorder
+from attnlab.results.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION, TABLES
+
+Progress = Callable[[int, int], None]  # (episodes done, cycles done)
+
+
+def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, float, float], learning: bool,
+                check: bool) -> tuple[list[Event], str | None, list[float]]:
+    """One episode from ``start`` (m, m, rad): its events, the cause of death or None, the penalty of each behaviour."""
+    agent.start(*start)
+    simulator, body = agent.simulator, agent.body
+    feeding = [i for i, need in enumerate(body.needs) if need.feeds_energy and not need.per_cycle]
+    growth = sum(body.needs[i].per_activation for i in feeding)
+    events, death = [], None
+    while death is None and simulator.cycle < agent.max_cycles:
+        cycle, before = simulator.cycle, body.energy + sum(body.values[i] for i in feeding)
+        active, death = machine_cycle(agent, exploration, learning)
+        if check and len(feeding) == sum(need.feeds_energy for need in body.needs):
+            check_balance(before, body.energy + sum(body.values[i] for i in feeding), body.e_u, body.e_nb, growth,
+                          active, simulator.cycle - cycle)
+        events.append(Event(cycle, active, body.energy, tuple(body.values)))
+    penalties = [a.died(death, learning) if death else 0.0 for a in agent.attentions]
+    return events, death, penalties
+
+
+def run_experiment(experiment: Experiment, run: str = "run", swept: Mapping[str, Any] | None = None,
+                   progress: Progress | None = None) -> tuple[dict[str, dict[str, list]], int]:
+    """All episodes of a run; (tables as lists by column, machine cycles simulated)."""
+    s = experiment.settings
+    recorder = Recorder(run, s.seed, s.curiosity["name"], dict(swept or {}), experiment.layout, s.check_identities)
+    done = cycles = 0
+    phases = [("train", s.train_episodes), ("validation", s.validation_episodes)]
+    last = max(i for i, (_, episodes) in enumerate(phases) if episodes)
+    simulator = experiment.simulator()
+    try:
+        agent = experiment.agent(simulator)
+        for index, (phase, episodes) in enumerate(phases):
+            exploration = experiment.exploration(phase)
+            learning = phase == "train"
+            if phase == "validation" and experiment.validation_spec is not None:
+                simulator.close()
+                agent.simulator = agent.now.simulator = simulator = experiment.simulator(validation=True)
+            for episode in range(episodes):
+                if learning:
+                    exploration.start(episode)
+                outcome = run_episode(agent, exploration, experiment.start_pose(phase, episode), learning,
+                                      s.check_identities)
+                full = (s.record == "all" or (s.record == "validation" and phase == "validation")
+                        or (s.record == "last" and index == last and episode == episodes - 1))
+                recorder.episode(agent, phase, episode, *outcome, full)
+                done, cycles = done + 1, cycles + simulator.cycle
+                if progress:
+                    progress(done, cycles)
+        return recorder.finish(agent), cycles
+    finally:
+        simulator.close()
+
+
+def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, Any],
+                  progress: Progress | None = None) -> bool:
+    """Run and store; True if complete. A failure is stored with its traceback and goes no further.
+
+    ``info``: run (name), key, overrides, swept, sources. run.json says ``running`` first and ``complete`` last, so a
+    folder in any other state is never taken for a result.
+    """
+    from omegaconf import OmegaConf
+    folder.mkdir(parents=True, exist_ok=True)
+    started = time.perf_counter()
+    about = {"status": "running", "key": info["key"], "seed": config["seed"], "overrides": list(info["overrides"]),
+             "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
+             "versions": versions(), "pid": os.getpid(), "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
+    write_json(folder / "run.json", about)
+    write_bytes(folder / "config.yaml", OmegaConf.to_yaml(OmegaConf.create(dict(config))).encode())
+    for name in TABLES:
+        (folder / f"{name}.parquet").unlink(missing_ok=True)
+    cpu = time.process_time()
+    try:
+        experiment = Experiment(config)
+        tables, cycles = run_experiment(experiment, info["run"], info["swept"], progress)
+        per_behaviour = {f"{b}_{column}": kind for b in config["behaviours"] for column, kind in PER_BEHAVIOUR.items()}
+        for name in TABLES:
+            types = {**COLUMNS[name], **(per_behaviour if name == "cycles" else {})}
+            columns = tables[name] or {column: [] for column in COLUMNS[name]}
+            write_parquet(folder / f"{name}.parquet", columns, types)
+        about.update(status="complete", cycles=cycles)
+    except Exception:  # a failed run is data: its traceback is stored, the sweep goes on
+        about.update(status="failed", error=traceback.format_exc())
+    about.update(wall_s=round(time.perf_counter() - started, 3), cpu_s=round(time.process_time() - cpu, 3))
+    write_json(folder / "run.json", about)
+    return about["status"] == "complete"
+
+
+def versions() -> dict[str, str]:
+    """Of everything a number may depend on."""
+    from importlib.metadata import PackageNotFoundError, version
+    found = {"attnlab": __version__, "python": platform.python_version()}
+    for package in ("numpy", "pybullet", "numba", "pyarrow", "hydra-core"):
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found

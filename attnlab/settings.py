@@ -1,0 +1,109 @@
+"""From a composed config to typed, checked dataclasses, with errors that name the setting and the nearest right name.
+
+Parts declare their parameters as dataclass fields made by :func:`setting`. Composing checks nothing about ranges and
+lets ``+any.thing=1`` through, so everything passes here, for every run of a sweep, before the first run starts.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import types
+import typing
+from collections.abc import Mapping
+from typing import Any
+
+from attnlab.errors import ConfigError, nearest
+
+
+def setting(default: Any, doc: str, *, unit: str = "", low: float | None = None, high: float | None = None,
+            above: float | None = None, choices: tuple | None = None) -> Any:
+    """A dataclass field with its meaning, unit and range (``low``/``high`` inclusive, ``above`` exclusive)."""
+    meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "choices": choices}
+    if isinstance(default, (list, dict)) or dataclasses.is_dataclass(default):
+        return dataclasses.field(default_factory=lambda: _copy(default), metadata=meta)
+    return dataclasses.field(default=default, metadata=meta)
+
+
+def _copy(value: Any) -> Any:
+    return dataclasses.replace(value) if dataclasses.is_dataclass(value) else type(value)(value)
+
+
+def defaults_of(cls: type) -> dict:
+    """The dataclass's defaults as a plain mapping, as stored in the config."""
+    return dataclasses.asdict(cls())
+
+
+def build(cls: type, node: Any, where: str) -> Any:
+    """An instance of dataclass ``cls`` from the mapping ``node``; raises :class:`ConfigError` naming ``where``."""
+    if not isinstance(node, Mapping):
+        raise ConfigError(where, f"expected settings by name, got {node!r}")
+    fields = {field.name: field for field in dataclasses.fields(cls)}
+    for key in node:
+        if key not in fields:
+            known = nearest(str(key), fields) if fields else "It takes no settings"
+            raise ConfigError(f"{where}.{key}" if where else str(key), "no such setting", known)
+    hints = typing.get_type_hints(cls)
+    values = {}
+    for key, value in node.items():
+        path = f"{where}.{key}" if where else key
+        values[key] = convert(value, hints[key], path)
+        _check_range(values[key], fields[key].metadata, path)
+    try:
+        return cls(**values)
+    except ConfigError as error:
+        inner = error.setting
+        raise ConfigError(f"{where}.{inner}" if where and inner else where or inner, error.problem, error.hint) from None
+
+
+def convert(value: Any, kind: Any, where: str) -> Any:
+    """``value`` as type ``kind``, or a ConfigError. Whole floats (1e3) pass as whole numbers, 1 as 1.0."""
+    origin, args = typing.get_origin(kind), typing.get_args(kind)
+    if kind is Any:
+        return value
+    if origin in (types.UnionType, typing.Union):
+        if value is None and type(None) in args:
+            return None
+        return convert(value, next(arg for arg in args if arg is not type(None)), where)
+    if origin is list:
+        if not isinstance(value, (list, tuple)):
+            raise ConfigError(where, f"expected a list, got {value!r}", "Write it as [a,b]")
+        return [convert(item, args[0], f"{where}[{i}]") for i, item in enumerate(value)]
+    if origin is dict or kind is dict:
+        if not isinstance(value, Mapping):
+            raise ConfigError(where, f"expected settings by name, got {value!r}")
+        return dict(value)
+    if dataclasses.is_dataclass(kind):
+        return build(kind, value, where)
+    if kind is bool and isinstance(value, bool):
+        return value
+    if kind is int and isinstance(value, (int, float)) and not isinstance(value, bool) and _whole(value):
+        return int(value)
+    if kind is float and isinstance(value, (int, float)) and not isinstance(value, bool):
+        if not math.isfinite(value):
+            raise ConfigError(where, f"expected a finite number, got {value}")
+        return float(value)
+    if kind is str and isinstance(value, (str, int, float)) and not isinstance(value, bool):
+        return str(value)
+    names = {int: "a whole number", float: "a number", bool: "true or false", str: "a word"}
+    raise ConfigError(where, f"expected {names.get(kind, kind)}, got {value!r}")
+
+
+def _whole(value: float) -> bool:
+    return math.isfinite(value) and value == int(value)
+
+
+def _check_range(value: Any, meta: Mapping, where: str) -> None:
+    for item in value if isinstance(value, list) else [value]:
+        choices = meta.get("choices")
+        if choices and item not in choices:
+            raise ConfigError(where, f"'{item}' is not one of its values", nearest(item, map(str, choices)))
+        if not isinstance(item, (int, float)) or isinstance(item, bool):
+            continue
+        unit = f" {meta['unit']}" if meta.get("unit") else ""
+        if meta.get("low") is not None and item < meta["low"]:
+            raise ConfigError(where, f"is {item}{unit}, must be at least {meta['low']}{unit}")
+        if meta.get("above") is not None and item <= meta["above"]:
+            raise ConfigError(where, f"is {item}{unit}, must be more than {meta['above']}{unit}")
+        if meta.get("high") is not None and item > meta["high"]:
+            raise ConfigError(where, f"is {item}{unit}, must be at most {meta['high']}{unit}")

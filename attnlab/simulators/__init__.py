@@ -1,0 +1,1 @@
+"""Simulators: the same robot in the same world, behind one protocol (:mod:`attnlab.simulators.base`)."""

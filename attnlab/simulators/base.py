@@ -1,0 +1,104 @@
+"""The protocol of a simulator. Sensors cost because they are read: nothing is sensed unless a method here is called."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from math import radians
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from attnlab.settings import setting
+from attnlab.simulators.robot import FRONT, Camera, centre_distances
+from attnlab.worlds.base import Layout
+
+
+class Blob(NamedTuple):
+    """What the camera says of one visible cube. ``solid`` is its index in the layout."""
+    kind: str
+    bearing_rad: float  # centroid, left positive
+    height_px: int  # of its tallest column
+    area_px: int
+    distance_m: float  # the proxy computed from the height
+    solid: int
+
+
+@dataclass
+class SensorParams:
+    """Settings that every simulator shares."""
+    sonar_range_m: float = setting(5.0, "reach of a sonar; a silent one reads this", unit="m", above=0.1, high=20)
+    camera_columns: int = setting(32, "camera resolution across", unit="px", low=8, high=640)
+    camera_rows: int = setting(24, "camera resolution down", unit="px", low=6, high=480)
+    camera_fov_deg: float = setting(60.0, "horizontal field of view", unit="deg", low=10, high=150)
+
+
+@dataclass(frozen=True)
+class SimulatorContext:
+    """What a simulator is built from. ``safety_distance_m``: None, or the least front-sonar distance from the centre
+    that does not count as a crash."""
+    layout: Layout
+    dt_s: float
+    max_cycles: int
+    safety_distance_m: float | None = None
+
+
+class Simulator(ABC):
+    """A robot in a world.
+
+    ``trace`` is a (max_cycles + 1, 3) float array: the pose (x m, y m, heading rad) before the first cycle and after
+    each; ``cycle`` counts the cycles moved since :meth:`place`.
+    """
+    name: str
+
+    def __init__(self, params: SensorParams, context: SimulatorContext):
+        self.params, self.layout, self.dt_s = params, context.layout, context.dt_s
+        self.safety_distance_m = context.safety_distance_m
+        self.camera = Camera(params.camera_columns, params.camera_rows, radians(params.camera_fov_deg))
+        self.trace = np.zeros((context.max_cycles + 1, 3))
+        self.cycle = 0
+
+    @abstractmethod
+    def place(self, x: float, y: float, heading: float) -> None:
+        """Start anew: the robot at this pose (m, m, rad), at rest, cycle 0, the world as built."""
+
+    @abstractmethod
+    def pose(self) -> tuple[float, float, float]:
+        """(x m, y m, heading rad)."""
+
+    @abstractmethod
+    def sonar(self) -> list[float]:
+        """16 ranges in m from the ring, in the order of :data:`attnlab.simulators.robot.SONARS`."""
+
+    @abstractmethod
+    def blobs(self) -> list[Blob]:
+        """A blob for every cube in view (walls are none), in the order of the layout's solids."""
+
+    @abstractmethod
+    def advance(self, v: float, w: float, cycles: int) -> tuple[int, bool]:
+        """Move at v m/s, w rad/s for up to ``cycles`` cycles; (cycles moved, crashed).
+
+        The crash rule is tested after every cycle, and the cycle in which it holds is the last one moved.
+        """
+
+    @abstractmethod
+    def snapshot(self) -> Any:
+        """All that a later :meth:`restore` on this simulator needs to go on exactly from here."""
+
+    @abstractmethod
+    def restore(self, state: Any) -> None: ...
+
+    @abstractmethod
+    def close(self) -> None:
+        """Give back what the simulator holds; safe to call twice."""
+
+    def too_near(self) -> bool:
+        """The safety-distance rule: front-sonar minimum from the centre below the distance (False without the rule)."""
+        return self.safety_distance_m is not None and \
+            min(centre_distances(self.sonar()[:len(FRONT)])) < self.safety_distance_m
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()

@@ -1,0 +1,73 @@
+"""Bodies of the pybullet simulator: floor, walls, cubes, and a Pioneer 3-DX of our own primitives."""
+
+from __future__ import annotations
+
+from math import cos, sin
+
+from attnlab.simulators.robot import RADIUS_M, WHEEL_BASE_M, WHEEL_RADIUS_M
+from attnlab.worlds.base import Layout
+
+COLOURS = {"food": (0.1, 0.7, 0.2, 1), "water": (0.1, 0.3, 0.9, 1), "obstacle": (0.05, 0.05, 0.05, 1),
+           "wall": (0.7, 0.7, 0.7, 1)}
+OUTER_WALLS = 4
+WORLD_GROUP, ROBOT_GROUP = 1, 2  # sonar rays start inside the footprint and must not hear it
+CLEAR_M = 0.05  # the base hangs this far above the floor
+
+
+def add_floor(p, client: int) -> int:
+    """An endless floor for the wheels; the base never touches it."""
+    floor = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client), physicsClientId=client)
+    p.setCollisionFilterGroupMask(floor, -1, WORLD_GROUP, WORLD_GROUP | ROBOT_GROUP, physicsClientId=client)
+    return floor
+
+
+def add_solids(p, client: int, layout: Layout, draw_all: bool) -> dict[int, int]:
+    """All solids as static boxes; returns body id -> index in ``layout.solids`` of those that make blobs."""
+    seen = {}
+    inner_walls = sum(solid.kind == "wall" for solid in layout.solids) > OUTER_WALLS
+    for index, solid in enumerate(layout.solids):
+        half = (solid.length_m / 2, solid.width_m / 2, solid.height_m / 2)
+        shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=half, physicsClientId=client)
+        drawn = draw_all or solid.kind != "wall" or (inner_walls and index >= OUTER_WALLS)
+        look = p.createVisualShape(p.GEOM_BOX, halfExtents=half, rgbaColor=COLOURS.get(solid.kind, (0.8, 0.4, 0.1, 1)),
+                                   physicsClientId=client) if drawn else -1
+        body = p.createMultiBody(0, shape, look, (solid.x_m, solid.y_m, solid.height_m / 2),
+                                 (0, 0, sin(solid.yaw_rad / 2), cos(solid.yaw_rad / 2)), physicsClientId=client)
+        p.setCollisionFilterGroupMask(body, -1, WORLD_GROUP, WORLD_GROUP | ROBOT_GROUP, physicsClientId=client)
+        if solid.kind != "wall":
+            seen[body] = index
+    return seen
+
+
+def add_robot(p, client: int, wheels: bool, visible: bool) -> tuple[int, float, tuple[int, ...]]:
+    """The robot at the origin; (body id, height of its base's centre in m, wheel joints: left, right).
+
+    Kinematic: the footprint as one cylinder. On wheels: a 9 kg base on two driven wheels and two frictionless casters.
+    """
+    height = 0.15
+    base_z = CLEAR_M + height / 2
+    base = p.createCollisionShape(p.GEOM_CYLINDER, radius=RADIUS_M, height=height, physicsClientId=client)
+    look = p.createVisualShape(p.GEOM_CYLINDER, radius=RADIUS_M, length=height, rgbaColor=(0.75, 0.1, 0.1, 1),
+                               physicsClientId=client) if visible else -1
+    if not wheels:
+        body = p.createMultiBody(1, base, look, (0, 0, base_z), physicsClientId=client)
+        p.setCollisionFilterGroupMask(body, -1, ROBOT_GROUP, WORLD_GROUP, physicsClientId=client)
+        return body, base_z, ()
+    wheel = p.createCollisionShape(p.GEOM_CYLINDER, radius=WHEEL_RADIUS_M, height=0.04, physicsClientId=client)
+    ball = p.createCollisionShape(p.GEOM_SPHERE, radius=0.03, physicsClientId=client)
+    side, lift = WHEEL_BASE_M / 2, WHEEL_RADIUS_M - base_z
+    upright = (0.7071067811865476, 0, 0, 0.7071067811865476)  # the cylinder's axis across the robot
+    places = [(0, side, lift), (0, -side, lift), (0.18, 0, 0.03 - base_z), (-0.18, 0, 0.03 - base_z)]
+    body = p.createMultiBody(
+        9.0, base, look, (0, 0, base_z), linkMasses=[0.75, 0.75, 0.2, 0.2],
+        linkCollisionShapeIndices=[wheel, wheel, ball, ball], linkVisualShapeIndices=[-1] * 4, linkPositions=places,
+        linkOrientations=[upright, upright, (0, 0, 0, 1), (0, 0, 0, 1)], linkInertialFramePositions=[(0, 0, 0)] * 4,
+        linkInertialFrameOrientations=[(0, 0, 0, 1)] * 4, linkParentIndices=[0] * 4,
+        linkJointTypes=[p.JOINT_REVOLUTE, p.JOINT_REVOLUTE, p.JOINT_FIXED, p.JOINT_FIXED],
+        linkJointAxis=[(0, 0, -1), (0, 0, -1), (0, 0, 1), (0, 0, 1)], physicsClientId=client)
+    for link, friction in enumerate((1.0, 1.0, 0.0, 0.0)):
+        p.changeDynamics(body, link, lateralFriction=friction, physicsClientId=client)
+    for link in range(-1, 4):
+        p.setCollisionFilterGroupMask(body, link, ROBOT_GROUP, WORLD_GROUP, physicsClientId=client)
+    p.changeDynamics(body, -1, linearDamping=0, angularDamping=0, physicsClientId=client)
+    return body, base_z, (0, 1)

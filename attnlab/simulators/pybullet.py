@@ -1,0 +1,195 @@
+"""The Pioneer 3-DX in pybullet: rays for sonars, the segmentation camera for blobs, contact by Bullet."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import weakref
+from dataclasses import dataclass
+from math import cos, degrees, pi, sin
+
+from attnlab.registry import register
+from attnlab.settings import setting
+from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
+from attnlab.simulators.bullet_bodies import WORLD_GROUP, add_floor, add_robot, add_solids
+from attnlab.simulators.robot import (
+    CAMERA_HEIGHT_M,
+    SONAR_HEIGHT_M,
+    SONAR_MIN_M,
+    SONARS,
+    WHEEL_BASE_M,
+    WHEEL_RADIUS_M,
+    arc,
+)
+
+PHYSICS_HZ = 240
+
+
+@contextlib.contextmanager
+def silence():
+    """Bullet prints a build line from C when it is imported; keep it out of our output."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    saved = [(fd, os.dup(fd)) for fd in (1, 2)]
+    for fd, _ in saved:
+        os.dup2(null, fd)
+    try:
+        yield
+    finally:
+        ctypes.CDLL(None).fflush(None)  # C buffers the line when the output is no terminal
+        for fd, copy in saved:
+            os.dup2(copy, fd)
+            os.close(copy)
+        os.close(null)
+
+
+@register("simulator", "pybullet")
+class PyBullet(Simulator):
+    """One physics client, owned and closed. Draws nothing at random.
+
+    ``drive=kinematic`` advances the pose by (v, w) and asks Bullet for contacts every cycle; ``drive=wheels`` steps
+    the physics at 240 Hz with motors on the two wheels. Blobs are counted in the segmentation mask of Bullet's
+    software renderer; walls are drawn only when the world has inner ones, as nothing hides behind the outer ones.
+    """
+
+    @dataclass
+    class Params(SensorParams):
+        drive: str = setting("kinematic", "how the robot moves", choices=("kinematic", "wheels"))
+        gui: bool = setting(False, "open Bullet's window")
+        wheel_force_n: float = setting(40.0, "largest torque of a wheel motor", unit="N m", above=0)
+
+    def __init__(self, params: Params, context: SimulatorContext):
+        super().__init__(params, context)
+        with silence():
+            import pybullet
+        self._p = p = pybullet
+        self._client = p.connect(p.GUI if params.gui else p.DIRECT)
+        if self._client < 0:
+            raise RuntimeError("pybullet gave no physics client" + (" (no display?)" if params.gui else ""))
+        self._finalizer = weakref.finalize(self, _disconnect, p, self._client)
+        self._wheels = params.drive == "wheels"
+        self._substeps = max(1, round(self.dt_s * PHYSICS_HZ))
+        self._mask_index: dict[int, int] = {}
+        self._build()
+        cam = self.camera
+        self._projection = p.computeProjectionMatrixFOV(degrees(cam.vertical_fov_rad), cam.columns / cam.rows, 0.2, 30.0,
+                                                        physicsClientId=self._client)
+        reach = params.sonar_range_m
+        z = SONAR_HEIGHT_M - self._base_z
+        self._ray_from = [(x, y, z) for x, y, _ in SONARS]
+        self._ray_to = [(x + reach * cos(a), y + reach * sin(a), z) for x, y, a in SONARS]
+        self._pose = (0.0, 0.0, 0.0)
+
+    def _build(self) -> None:
+        """The same bodies in the same order, so that every start is the first one."""
+        p, c = self._p, self._client
+        p.resetSimulation(physicsClientId=c)
+        p.setPhysicsEngineParameter(deterministicOverlappingPairs=1, physicsClientId=c)
+        p.setTimeStep(self.dt_s / self._substeps, physicsClientId=c)
+        p.setGravity(0, 0, -9.81, physicsClientId=c)
+        if self._wheels:
+            add_floor(p, c)
+        self._mask_index = add_solids(p, c, self.layout, self.params.gui)
+        self._robot, self._base_z, self._joints = add_robot(p, c, self._wheels, self.params.gui)
+
+    def place(self, x: float, y: float, heading: float) -> None:
+        if self._wheels:  # contacts with the floor would be remembered; kinematic motion has no memory but the pose
+            self._build()
+        self.cycle = 0
+        self._set_pose(x, y, heading)
+        self.trace[0] = self._pose
+
+    def _set_pose(self, x: float, y: float, heading: float) -> None:
+        self._pose = (x, y, heading)
+        self._p.resetBasePositionAndOrientation(self._robot, (x, y, self._base_z),
+                                                (0.0, 0.0, sin(heading / 2), cos(heading / 2)),
+                                                physicsClientId=self._client)
+
+    def pose(self) -> tuple[float, float, float]:
+        return self._pose
+
+    def sonar(self) -> list[float]:
+        hits = self._p.rayTestBatch(self._ray_from, self._ray_to, parentObjectUniqueId=self._robot,
+                                    collisionFilterMask=WORLD_GROUP,
+                                    physicsClientId=self._client)
+        reach = self.params.sonar_range_m
+        return [max(SONAR_MIN_M, hit[2] * reach) for hit in hits]
+
+    def blobs(self) -> list[Blob]:
+        import numpy as np
+        p, cam = self._p, self.camera
+        x, y, heading = self._pose
+        z = CAMERA_HEIGHT_M
+        view = p.computeViewMatrix((x, y, z), (x + cos(heading), y + sin(heading), z), (0, 0, 1))
+        mask = p.getCameraImage(cam.columns, cam.rows, view, self._projection, renderer=p.ER_TINY_RENDERER,
+                                flags=p.ER_SEGMENTATION_MASK_OBJECT_AND_LINKINDEX, physicsClientId=self._client)[4]
+        mask = np.asarray(mask).reshape(cam.rows, cam.columns)
+        blobs = []
+        for body, index in self._mask_index.items():
+            pixels = mask == body
+            columns = pixels.sum(axis=0).tolist()
+            area = sum(columns)
+            if area:
+                centre = sum((i + 0.5) * n for i, n in enumerate(columns)) / area
+                height, bearing = max(columns), cam.bearing(centre)
+                blobs.append(Blob(self.layout.solids[index].kind, bearing, height, area,
+                                  cam.distance(height, bearing), index))
+        return blobs
+
+    def advance(self, v: float, w: float, cycles: int) -> tuple[int, bool]:
+        step = self._roll if self._wheels else self._slide
+        trace, start = self.trace, self.cycle
+        for moved in range(1, cycles + 1):
+            crashed = step(v, w)
+            self.cycle = start + moved
+            trace[self.cycle] = self._pose
+            if crashed or self.too_near():
+                return moved, True
+        return cycles, False
+
+    def _slide(self, v: float, w: float) -> bool:
+        p, c = self._p, self._client
+        x, y, heading = arc(*self._pose, v, w, self.dt_s)
+        self._set_pose(x, y, (heading + pi) % (2 * pi) - pi)
+        p.performCollisionDetection(physicsClientId=c)
+        return self._touching()
+
+    def _roll(self, v: float, w: float) -> bool:
+        p, c = self._p, self._client
+        for joint, side in zip(self._joints, (1, -1), strict=True):
+            speed = (v - side * w * WHEEL_BASE_M / 2) / WHEEL_RADIUS_M
+            p.setJointMotorControl2(self._robot, joint, p.VELOCITY_CONTROL, targetVelocity=speed,
+                                    force=self.params.wheel_force_n, physicsClientId=c)
+        touched = False
+        for _ in range(self._substeps):
+            p.stepSimulation(physicsClientId=c)
+            touched = touched or self._touching()
+        (x, y, _), turn = p.getBasePositionAndOrientation(self._robot, physicsClientId=c)
+        self._pose = (x, y, p.getEulerFromQuaternion(turn)[2])
+        return touched
+
+    def _touching(self) -> bool:
+        """Does the footprint (the robot's base, not its wheels) touch a wall or a box?"""
+        contacts = self._p.getContactPoints(bodyA=self._robot, linkIndexA=-1, physicsClientId=self._client)
+        return any(contact[8] <= 0.0 for contact in contacts)
+
+    def snapshot(self) -> tuple:
+        state = self._p.saveState(physicsClientId=self._client) if self._wheels else None
+        return self._pose, self.cycle, self.trace[:self.cycle + 1].copy(), state
+
+    def restore(self, state: tuple) -> None:
+        pose, self.cycle, path, saved = state
+        self.trace[:self.cycle + 1] = path
+        if saved is None:
+            self._set_pose(*pose)
+        else:
+            self._p.restoreState(stateId=saved, physicsClientId=self._client)
+            self._pose = pose
+
+    def close(self) -> None:
+        self._finalizer()
+
+
+def _disconnect(p, client: int) -> None:
+    with contextlib.suppress(p.error):
+        p.disconnect(client)

@@ -1,0 +1,64 @@
+"""The Pioneer 3-DX as both simulators know it: footprint, sonar ring, blob camera, unicycle motion.
+
+Sonar poses as published in public descriptions of the robot; the first eight are the frontal ring.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, radians, sin, tan
+
+RADIUS_M = 0.25  # footprint: the circle swept when the robot turns on the spot
+SONAR_HEIGHT_M = 0.2
+CAMERA_HEIGHT_M = 0.25  # half the height of a cube, on the robot's axis
+WHEEL_RADIUS_M = 0.0975
+WHEEL_BASE_M = 0.33
+SONARS_MM_DEG = (
+    (69, 136, 90), (114, 119, 50), (148, 78, 30), (166, 27, 10), (166, -27, -10), (148, -78, -30), (114, -119, -50),
+    (69, -136, -90), (-157, -136, -90), (-203, -119, -130), (-237, -78, -150), (-255, -27, -170), (-255, 27, 170),
+    (-237, 78, 150), (-203, 119, 130), (-157, 136, 90),
+)
+SONARS = tuple((x / 1000, y / 1000, radians(deg)) for x, y, deg in SONARS_MM_DEG)  # (x m, y m, rad), robot frame
+FRONT = range(8)
+SONAR_MIN_M = 0.1
+# r + o along the ray, p across: the hit point's distance from the centre is hypot(r + along, across).
+_ALONG = tuple(x * cos(a) + y * sin(a) for x, y, a in SONARS)
+_ACROSS = tuple(abs(-x * sin(a) + y * cos(a)) for x, y, a in SONARS)
+
+
+def centre_distances(ranges_m: list[float]) -> list[float]:
+    """Sonar ranges (m, from the ring) as distances of the echoes from the robot's centre; the first n sonars of n."""
+    return [hypot(r + along, across) for r, along, across in zip(ranges_m, _ALONG, _ACROSS, strict=False)]
+
+
+def arc(x: float, y: float, heading: float, v: float, w: float, dt: float) -> tuple[float, float, float]:
+    """The pose after moving for ``dt`` s at ``v`` m/s and ``w`` rad/s: the exact arc of a unicycle."""
+    turn = w * dt
+    if -1e-9 < turn < 1e-9:
+        return x + v * dt * cos(heading), y + v * dt * sin(heading), heading + turn
+    radius, after = v / w, heading + turn
+    return x + radius * (sin(after) - sin(heading)), y - radius * (cos(after) - cos(heading)), after
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole blob camera at the robot's centre, looking ahead. ``columns`` x ``rows`` square pixels."""
+    columns: int
+    rows: int
+    fov_rad: float  # horizontal
+
+    @property
+    def focal_px(self) -> float:
+        return self.columns / 2 / tan(self.fov_rad / 2)
+
+    @property
+    def vertical_fov_rad(self) -> float:
+        return 2 * atan2(self.rows / 2, self.focal_px)
+
+    def bearing(self, column: float) -> float:
+        """Bearing (rad, left positive) of a column coordinate (0 = left edge of the image)."""
+        return atan2(self.columns / 2 - column, self.focal_px)
+
+    def distance(self, height_px: float, bearing_rad: float, height_m: float = 0.5) -> float:
+        """The distance proxy: how far from the centre a cube is whose blob is ``height_px`` tall (m)."""
+        return self.focal_px * height_m / height_px / cos(bearing_rad)

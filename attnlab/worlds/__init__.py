@@ -1,0 +1,1 @@
+"""Worlds: a description (conf/world/*.yaml) becomes a :class:`~attnlab.worlds.base.Layout`."""

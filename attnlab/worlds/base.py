@@ -1,0 +1,79 @@
+"""What a world is once it stands: solids, and where the robot may start."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from random import Random
+
+from attnlab.errors import ConfigError
+from attnlab.geometry import Solid, clearance
+
+WALL_M = 0.1  # thickness of the walls around an arena, outside of its floor
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A checked world.
+
+    ``solids``: walls first, then the boxes. ``start``: (x_min, x_max, y_min, y_max) of the start region in m.
+    ``start_clearance_m``: least distance of a start pose from any solid. ``fixed_start``: (x, y, heading) or None.
+    """
+    width_m: float
+    depth_m: float
+    solids: tuple[Solid, ...]
+    start: tuple[float, float, float, float]
+    start_clearance_m: float
+    fixed_start: tuple[float, float, float] | None = None
+
+    @cached_property
+    def free_cells(self) -> list[tuple[float, float]]:
+        """Points of a 0.05 m grid over the start region that are clear of every solid."""
+        x_min, x_max, y_min, y_max = self.start
+        xs = [x_min + (x_max - x_min) * i / (n or 1) for n in [max(0, round((x_max - x_min) / 0.05))]
+              for i in range(n + 1)]
+        ys = [y_min + (y_max - y_min) * i / (n or 1) for n in [max(0, round((y_max - y_min) / 0.05))]
+              for i in range(n + 1)]
+        return [(x, y) for x in xs for y in ys if clearance(x, y, self.solids) >= self.start_clearance_m]
+
+    def random_start(self, draw: Random) -> tuple[float, float, float]:
+        """A free pose (x m, y m, heading rad): uniform over the start region less what is too near to a solid.
+
+        A region of no area (a point, a line) or one that a thousand draws miss falls back on the grid's free points.
+        """
+        x_min, x_max, y_min, y_max = self.start
+        for _ in range(1000):
+            x, y = draw.uniform(x_min, x_max), draw.uniform(y_min, y_max)
+            if clearance(x, y, self.solids) >= self.start_clearance_m:
+                break
+        else:
+            x, y = draw.choice(self.free_cells)
+        return x, y, draw.uniform(-pi, pi)
+
+    def steady_start(self) -> tuple[float, float, float]:
+        """The one start pose of ``reading.start_pose=fixed``: the world's own, or the free point nearest its middle."""
+        if self.fixed_start is not None:
+            return self.fixed_start
+        x0, y0 = (self.start[0] + self.start[1]) / 2, (self.start[2] + self.start[3]) / 2
+        x, y = min(self.free_cells, key=lambda p: ((p[0] - x0) ** 2 + (p[1] - y0) ** 2, p))
+        return x, y, 0.0
+
+
+def outer_walls(width_m: float, depth_m: float) -> list[Solid]:
+    """Four walls whose inner faces bound the floor [0, width] x [0, depth]."""
+    t, w, d = WALL_M, width_m, depth_m
+    return [Solid("wall", w / 2, -t / 2, w + 2 * t, t), Solid("wall", w / 2, d + t / 2, w + 2 * t, t),
+            Solid("wall", -t / 2, d / 2, t, d), Solid("wall", w + t / 2, d / 2, t, d)]
+
+
+def check_start(layout: Layout) -> Layout:
+    """The layout, or a ConfigError if the robot could not start anywhere."""
+    if not layout.free_cells:
+        raise ConfigError("start", f"no free start: every point of the start region is nearer than "
+                          f"{layout.start_clearance_m} m to a box or wall", "Move a box, or widen start")
+    if layout.fixed_start is not None:
+        x, y, _ = layout.fixed_start
+        if clearance(x, y, layout.solids) < layout.start_clearance_m:
+            raise ConfigError("fixed_start", f"({x}, {y}) is nearer than {layout.start_clearance_m} m to a box or wall")
+    return layout
