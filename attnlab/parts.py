@@ -1,0 +1,164 @@
+"""``python -m attnlab.parts``: every part, where it comes from, and what failed to load; with a name, all about it.
+
+    python -m attnlab.parts                 all parts by group
+    python -m attnlab.parts surprise        its docs, parameters with defaults, units and ranges, its file
+    python -m attnlab.parts learner/random  a name that several groups use
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import inspect
+import sys
+import textwrap
+import typing
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from attnlab import registry
+from attnlab.console import guarded
+from attnlab.errors import ConfigError, nearest
+from attnlab.paths import PACKAGE, conf_dir
+
+
+def short(path: str) -> str:
+    """A path relative to the folder one works in, if it is below it."""
+    try:
+        return str(Path(path).resolve().relative_to(Path.cwd()))
+    except ValueError:
+        return path
+
+
+def source(spec: registry.Spec) -> str:
+    """``built in``, ``plugin`` or ``package``: which of the three doors a part came through."""
+    origin = Path(spec.origin)
+    if spec.cls.__module__.startswith("attnlab.plugins."):
+        return "plugin"
+    return "built in" if origin.is_relative_to(PACKAGE) else "package"
+
+
+def summary(text: str | None, width: int = 90) -> str:
+    """The first sentence of a docstring or comment, on one line."""
+    line = " ".join((text or "(no docstring)").split("\n\n")[0].split())
+    return textwrap.shorten(line.split(". ")[0], width, placeholder=" ...")
+
+
+def named_configs() -> dict[tuple[str, str], Path]:
+    """Options that exist as a yaml file alone: (group, name) -> file."""
+    taken = {(spec.group, option) for spec in registry.parts.values() for option in spec.nodes()}
+    return {(file.parent.name, file.stem): file for group in ("reading", *registry.GROUPS)
+            for file in sorted((conf_dir() / group).glob("*.yaml")) if (group, file.stem) not in taken}
+
+
+def kind_of(hint: typing.Any) -> str:
+    """A type as one reads it: ``float``, ``list[float]``, ``str or none``."""
+    if isinstance(hint, type) and not typing.get_args(hint):
+        return hint.__name__
+    return str(hint).replace("typing.", "").replace(" | None", " or none")
+
+
+def parameters(params: type, prefix: str = "") -> Iterable[str]:
+    """A line a parameter: name, type, default, unit, range, meaning; those of a nested dataclass after it."""
+    hints = typing.get_type_hints(params)
+    values = params()
+    for field in dataclasses.fields(params):
+        meta, value = field.metadata, getattr(values, field.name)
+        if dataclasses.is_dataclass(value):
+            yield f"  {prefix}{field.name}: {meta.get('doc', '')}"
+            yield from parameters(type(value), f"{prefix}{field.name}.")
+            continue
+        limits = [f"at least {meta['low']}" if meta.get("low") is not None else "",
+                  f"more than {meta['above']}" if meta.get("above") is not None else "",
+                  f"at most {meta['high']}" if meta.get("high") is not None else "",
+                  "one of " + ", ".join(map(str, meta["choices"])) if meta.get("choices") else ""]
+        unit = f" {meta['unit']}" if meta.get("unit") else ""
+        limits = f" ({', '.join(filter(None, limits))})" if any(limits) else ""
+        yield f"  {prefix}{field.name}: {kind_of(hints[field.name])} = {value}{unit}{limits}"
+        yield f"      {meta.get('doc') or '(undocumented)'}"
+
+
+def describe(spec: registry.Spec, option: str) -> str:
+    """All about one part."""
+    lines = [f"{spec.group}={option}   {source(spec)}: {short(spec.origin)}"]
+    if option != spec.name:
+        lines.append(f"  a preset of {spec.name}: " + ", ".join(f"{k}={v}" for k, v in spec.presets[option].items()))
+    lines += ["", inspect.getdoc(spec.cls) or "(no docstring)", ""]
+    if dataclasses.fields(spec.params):
+        lines += [f"Parameters (set with {spec.group}.<name>=<value>"
+                  + (f", for behaviours: behaviours.{option}.<name>=<value>)" if spec.group == "behaviours" else ")"),
+                  *parameters(spec.params)]
+    else:
+        lines.append("It takes no parameters.")
+    if spec.presets and option == spec.name:
+        lines += ["Presets:", *(f"  {name}: {values}" for name, values in spec.presets.items())]
+    return "\n".join(lines)
+
+
+def describe_config(group: str, name: str, file: Path) -> str:
+    """All about an option that is a yaml file, and for a reading the settings it may change."""
+    lines = [f"{group}={name}   config: {short(str(file))}", "", file.read_text().rstrip()]
+    return "\n".join(lines)
+
+
+def describe_reading() -> str:
+    """The default reading: every setting it holds."""
+    from attnlab import reading
+    return "\n".join([f"reading=inferred   built in: {short(reading.__file__)}", "", inspect.getdoc(reading), "",
+                      "Parameters (set with reading.<name>=<value>)", *parameters(reading.Reading)])
+
+
+def find(wanted: str) -> str:
+    """The text about every part of this name (``name`` or ``group/name``)."""
+    group, _, name = wanted.rpartition("/")
+    found = [describe(spec, name) for spec in registry.parts.values()
+             if name in spec.nodes() and group in ("", spec.group)]
+    found += [describe_config(g, n, file) for (g, n), file in named_configs().items() if n == name and group in ("", g)]
+    if wanted in ("inferred", "reading", "reading/inferred"):
+        found = [describe_reading()]
+    for module, (file, cause) in registry.failures.items():
+        if name in (module, module.rpartition(".")[2]):
+            found.append(f"{short(file)} failed to load: {registry.describe(cause)}")
+    if not found:
+        names = [option for spec in registry.parts.values() for option in spec.nodes()]
+        raise ConfigError(wanted, "no part is called that", nearest(name, {*names, *(n for _, n in named_configs())}))
+    return "\n\n".join(found)
+
+
+def rows(group: str) -> Iterable[tuple[str, str, str]]:
+    """(option, where it comes from, what it is) of all options of a group."""
+    if group == "reading":
+        yield "inferred", "built in", "The default reading of the paper's open points"
+    for spec in sorted((s for s in registry.parts.values() if s.group == group), key=lambda s: s.name):
+        where = "built in" if source(spec) == "built in" else f"{source(spec)}, {short(spec.origin)}"
+        yield spec.name, where, summary(inspect.getdoc(spec.cls))
+        for preset, values in sorted(spec.presets.items()):
+            yield preset, where, f"{spec.name} with " + ", ".join(f"{k}={v}" for k, v in values.items())
+    for (owner, name), file in named_configs().items():
+        if owner == group:
+            first = file.read_text().partition("\n")[0]
+            yield name, "config", summary(first.lstrip("# ") if first.startswith("#") else short(str(file)))
+
+
+def table() -> str:
+    """All parts by group, a line each, and what failed to load."""
+    lines = []
+    for group in ("reading", *registry.GROUPS):
+        lines += [group, *(f"  {name:<20} {where:<10} {what}" for name, where, what in rows(group))]
+    if registry.failures:
+        lines += ["", "failed to load (the others are not affected)"]
+        lines += [f"  {short(file)}: {registry.describe(cause)}" for file, cause in registry.failures.values()]
+    return "\n".join(lines)
+
+
+def main(argv: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python -m attnlab.parts", description="List all parts, or explain one.")
+    parser.add_argument("name", nargs="*", help="a part, or group/part")
+    names = parser.parse_args(argv).name
+    registry.load_all()
+    print("\n\n".join(map(find, names)) if names else table())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(guarded(main))
