@@ -1,0 +1,33 @@
+"""numba, with its disk cache where there is one."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+
+from numba import njit
+
+_told = False
+
+
+def compiled(signature: str) -> Callable:
+    """Decorator: compile for this one signature, from the disk cache if it holds the function.
+
+    One signature means that whole numbers are converted rather than compiled for anew. No fastmath and no threads: the
+    machine code, and so every bit of a result, is the same whether it was cached or not. Without any writable cache
+    folder (beside the package, the user's, or NUMBA_CACHE_DIR) the function is compiled in each process, and one line
+    on standard error says so.
+    """
+    def wrap(function: Callable) -> Callable:
+        global _told
+        try:
+            return njit(signature, cache=True, error_model="numpy")(function)
+        except (RuntimeError, OSError) as cause:
+            if isinstance(cause, RuntimeError) and "cache" not in str(cause):
+                raise
+            if not _told:
+                print("attnlab: numba's cache folder is not writable, so every process compiles the simulator anew "
+                      "(some seconds); set NUMBA_CACHE_DIR to a folder that is", file=sys.stderr)
+                _told = True
+            return njit(signature, error_model="numpy")(function)
+    return wrap

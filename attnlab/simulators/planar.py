@@ -1,0 +1,96 @@
+"""The plane the paper's robot drove in: exact geometry, no physics, compiled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, hypot, sin
+
+import numpy as np
+
+from attnlab.errors import ConfigError
+from attnlab.registry import register
+from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
+from attnlab.simulators.robot import CAMERA_HEIGHT_M, FRONT, RADIUS_M, SONAR_MIN_M, SONARS
+
+
+@register("simulator", "planar")
+class Planar(Simulator):
+    """A kinematic world like that of Stage (Vaughan 2008, Swarm Intelligence 2:189), exact where Stage has a grid.
+
+    Sonar rays against oriented boxes, a disc against boxes for contact, and the blobs that a pinhole camera counts at
+    its pixel centres, with occlusion; the unicycle's exact arc for motion. It agrees with pybullet on the
+    kinematic drive (docs/certificate.md). Draws nothing at random.
+
+    Every pose has an answer: outside of the arena the walls are heard and hide what is behind them from there too, and
+    a sonar or camera inside a box does not meet that box (as in Bullet); contact then holds anyway.
+    """
+
+    @dataclass
+    class Params(SensorParams):
+        pass
+
+    def __init__(self, params: Params, context: SimulatorContext):
+        super().__init__(params, context)
+        from attnlab.kernels import planar
+        self._kernels = planar
+        solids = context.layout.solids
+        for solid in solids:
+            if solid.height_m != 2 * CAMERA_HEIGHT_M:
+                raise ConfigError("simulator=planar", f"the {solid.kind} at ({solid.x_m}, {solid.y_m}) is "
+                                  f"{solid.height_m} m high; the plane is exact for {2 * CAMERA_HEIGHT_M} m only",
+                                  "Use simulator=pybullet")
+        # Boxes that make blobs first, in the order of the layout; walls only hide, and are looked at last.
+        self._solid = sorted(range(len(solids)), key=lambda i: (solids[i].kind == "wall", i))
+        self._cubes = sum(solid.kind != "wall" for solid in solids)
+        self._boxes = np.array([_row(solids[i]) for i in self._solid]).reshape(-1, 7)
+        self._ring = np.array([(x, y, cos(a), sin(a)) for x, y, a in SONARS])
+        self._front = self._ring[:len(FRONT)].copy()
+        self._ranges = np.zeros(len(SONARS))
+        self._seen = np.zeros((self._cubes, 4))
+
+    def place(self, x: float, y: float, heading: float) -> None:
+        self.cycle = 0
+        self.trace[0] = x, y, heading
+
+    def pose(self) -> tuple[float, float, float]:
+        return tuple(self.trace[self.cycle].tolist())
+
+    def sonar(self) -> list[float]:
+        self._kernels.sonar(self.trace, self.cycle, self._boxes, self._ring, self.params.sonar_range_m, SONAR_MIN_M,
+                            self._ranges)
+        return self._ranges.tolist()
+
+    def blobs(self) -> list[Blob]:
+        cam = self.camera
+        found = self._kernels.blobs(self.trace, self.cycle, self._boxes, self._cubes, cam.columns, cam.rows,
+                                    cam.focal_px, CAMERA_HEIGHT_M, self._seen)
+        blobs = []
+        for box, centre, height, area in self._seen[:found].tolist():
+            index, bearing = self._solid[int(box)], cam.bearing(centre)
+            blobs.append(Blob(self.layout.solids[index].kind, bearing, int(height), int(area),
+                              cam.distance(height, bearing), index))
+        return blobs
+
+    def advance(self, v: float, w: float, cycles: int) -> tuple[int, bool]:
+        if cycles >= len(self.trace) - self.cycle:
+            raise IndexError(f"{cycles} more cycles than the {len(self.trace) - 1} of an episode")
+        moved = self._kernels.advance(self.trace, self.cycle, self._boxes, v, w, self.dt_s, cycles, RADIUS_M,
+                                      self.safety_distance_m or 0.0, self._front, self.params.sonar_range_m, SONAR_MIN_M)
+        self.cycle += abs(moved)
+        return abs(moved), moved < 0
+
+    def snapshot(self) -> tuple:
+        return self.cycle, self.trace[:self.cycle + 1].copy()
+
+    def restore(self, state: tuple) -> None:
+        self.cycle, path = state
+        self.trace[:self.cycle + 1] = path
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+def _row(solid) -> tuple[float, ...]:
+    half_length, half_width = solid.length_m / 2, solid.width_m / 2
+    return (solid.x_m, solid.y_m, cos(solid.yaw_rad), sin(solid.yaw_rad), half_length, half_width,
+            hypot(half_length, half_width))
