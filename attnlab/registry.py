@@ -141,6 +141,11 @@ def plugin_folders() -> list[Path]:
     return list(unique)
 
 
+def config_folders() -> list[Path]:
+    """Folders beside plugins that may hold config groups (a world, an experiment): found by Hydra after ours."""
+    return plugin_folders()
+
+
 def load_all() -> None:
     """Import every built-in part, every plugins/ file and every ``attnlab.plugins`` entry point, once a process."""
     global _loaded

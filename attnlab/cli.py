@@ -1,0 +1,73 @@
+"""``python -m attnlab``: arguments, Hydra, and errors that say what to do."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+
+from attnlab import __version__, registry
+from attnlab.argv import normalise
+from attnlab.console import guarded
+from attnlab.errors import ConfigError
+from attnlab.paths import conf_dir
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Entry point; returns the exit code (0 complete, 1 a run failed, 2 wrong command line or config)."""
+    return guarded(_main, argv)
+
+
+def _main(argv: Sequence[str]) -> int:
+    arguments = normalise(list(argv))
+    if any(flag in arguments for flag in ("--help", "-h")):
+        from attnlab.helptext import help_text
+        registry.load_all()
+        print(help_text())
+        return 0
+    if "--version" in arguments:
+        print(f"attnlab {__version__}")
+        return 0
+    registry.load_all()
+    for file, cause in registry.failures.values():
+        print(f"attnlab: {file} did not load and is left out: {registry.describe(cause)}", file=sys.stderr)
+    return _hydra(arguments)
+
+
+def _hydra(arguments: list[str]) -> int:
+    """Run Hydra's application on these arguments."""
+    os.environ["HYDRA_FULL_ERROR"] = "1"  # raise, so that errors can be explained
+    import hydra
+    from omegaconf import OmegaConf
+
+    from attnlab.explain import explain
+    from attnlab.launch.sweeper import StudySweeper, register_with_hydra
+    from attnlab.store import store_options
+    store_options()
+    register_with_hydra()
+    others = ("-m", "--multirun", "-c", "--cfg", "-i", "--info", "--hydra-help", "-sc", "--shell-completion")
+    if not any(argument.split("=")[0] in others for argument in arguments):
+        arguments = ["-m", *arguments]  # every invocation is a study, if of one run
+
+    @hydra.main(version_base="1.3", config_path=str(conf_dir()), config_name="config")
+    def application(config) -> None:
+        """Reached only through a launcher of another package: one run in this process."""
+        from attnlab.launch.study import make_job
+        from attnlab.run import run_to_folder
+        job = make_job(OmegaConf.to_container(config, resolve=True), [], {})
+        run_to_folder(job.config, job.folder, job.info)
+
+    saved, sys.argv = sys.argv, ["attnlab", *arguments]
+    try:
+        application()
+    except (ConfigError, KeyboardInterrupt):
+        raise
+    except Exception as cause:
+        problem = None if os.environ.get("ATTNLAB_DEBUG") else explain(cause, arguments)
+        if problem is None:
+            raise
+        raise problem from None
+    finally:
+        sys.argv = saved
+    return StudySweeper.exit_code
+

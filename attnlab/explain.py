@@ -1,0 +1,94 @@
+"""Hydra's exceptions as one line that names the setting, what is wrong, and the nearest right name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from attnlab import registry
+from attnlab.errors import ConfigError, nearest
+from attnlab.paths import conf_dir
+
+
+def explain(cause: BaseException, arguments: Sequence[str]) -> ConfigError | None:
+    """The user's error behind an exception out of Hydra, or None if it is ours."""
+    from hydra.errors import HydraException
+    from omegaconf.errors import OmegaConfBaseException
+    chain, link = [], cause
+    while link is not None:
+        chain.append(link)
+        link = link.__cause__ or link.__context__
+    for link in chain:
+        if isinstance(link, ConfigError):
+            return link
+    if not any(isinstance(link, (HydraException, OmegaConfBaseException)) for link in chain):
+        return None
+    texts = [str(link) for link in chain]
+    for text in texts:
+        for rule in (_missing_option, _no_match, _unknown_key, _grammar):
+            error = rule(text, arguments)
+            if error is not None:
+                return error
+    return ConfigError("config", texts[0].strip().splitlines()[0] if texts[0].strip() else type(cause).__name__,
+                       "python -m attnlab --help shows the settings")
+
+
+def _missing_option(text: str, arguments: Sequence[str]) -> ConfigError | None:
+    match = re.search(r"Could not find '([\w./-]+)/([^/']+)'", text)
+    if not match:
+        return None
+    group, name = match[1], match[2]
+    known = options(group)
+    if not known:
+        typed = next((a for a in arguments if a.lstrip("+").startswith(group)), group)
+        return ConfigError(typed.lstrip("+"), "no such group of parts", nearest(group, [*registry.GROUPS, "reading",
+                                                                                         "experiment", "cluster"]))
+    return registry.unknown(group, name, group, known)
+
+
+def _no_match(text: str, arguments: Sequence[str]) -> ConfigError | None:
+    match = re.search(r"Could not override '([^']+)'", text) or re.search(r"Key '([^']+)' is not in struct", text)
+    if not match:
+        return None
+    key = match[1]
+    return _nearest_key(key)
+
+
+def _unknown_key(text: str, arguments: Sequence[str]) -> ConfigError | None:
+    match = re.search(r"full_key: ([\w.\[\]-]+)", text)
+    return _nearest_key(match[1]) if match and "not in" in text else None
+
+
+def _nearest_key(key: str) -> ConfigError:
+    from attnlab.store import root_node
+    head, _, last = key.rpartition(".")
+    if not head:
+        return ConfigError(key, "no such setting", nearest(key, [*root_node(), *registry.GROUPS, "reading", "cluster"]))
+    known: set[str] = set()
+    group = head.split(".")[0]
+    if group == "reading":
+        from attnlab.reading import Reading
+        known = set(Reading.__dataclass_fields__)
+    for spec in registry.parts.values():
+        if spec.group == group and (group != "behaviours" or spec.name == head.rpartition(".")[2]):
+            known |= set(getattr(spec.params, "__dataclass_fields__", {}))
+    return ConfigError(key, "no such setting", nearest(last, known) if known else
+                       "Is the part it belongs to chosen? python -m attnlab.parts lists all")
+
+
+def _grammar(text: str, arguments: Sequence[str]) -> ConfigError | None:
+    match = re.search(r"Error parsing override '([^']*)'", text)
+    if not match:
+        return None
+    detail = text.splitlines()[1].strip() if len(text.splitlines()) > 1 else "cannot be read"
+    return ConfigError(match[1], f"cannot be read ({detail})", "Write setting=value; quote values with special "
+                       "characters: 'study=\"my study\"'")
+
+
+def options(group: str) -> list[str]:
+    """Names that can stand after ``group=``."""
+    names = {option for spec in registry.parts.values() if spec.group == group for option in spec.nodes()}
+    for folder in (conf_dir(), *registry.config_folders()):
+        names |= {file.stem for file in (folder / group).glob("*.yaml")}
+    names |= {"reading": {"inferred"}, "cluster": {"local"}}.get(group, set())
+    return sorted(names)

@@ -1,0 +1,47 @@
+"""What ``python -m attnlab --help`` says."""
+
+from __future__ import annotations
+
+import textwrap
+
+from attnlab import registry
+from attnlab.experiment import RunSettings
+from attnlab.explain import options
+
+TEXT = """\
+attnlab: learn where to look.
+
+  python -m attnlab                                          one run: the curious robot of Di Nocera et al. 2014
+  python -m attnlab +experiment=smoke                        does everything work here? (seconds)
+  python -m attnlab +experiment=cr_vs_ncr -m seed=0-19       the paper's study: curious against non-curious, 40 runs
+  python -m attnlab +experiment=baselines seed=0-4           fixed, random and always-on attention
+  python -m attnlab curiosity=none reading=table4 seed=0-4,7 any part, any setting, any seeds
+  python -m attnlab 'behaviours=[avoid,eat]' +behaviours=rest
+  python -m attnlab -m learner.alpha=0.1,0.5,0.8 seed=0-9    a sweep of your own
+
+A study that was interrupted goes on where it stopped: type the same command again.
+Parts and their settings:   python -m attnlab.parts [NAME]
+Results as pandas frames:   attnlab.results.load("outputs/cr_vs_ncr").episodes
+The composed config:        python -m attnlab --cfg job
+"""
+
+
+def help_text() -> str:
+    """Commands, then the choices of each group, then the settings."""
+    lines = [TEXT, "Choices (group=option):"]
+    for group in ("experiment", *registry.GROUPS, "reading", "cluster"):
+        names = options(group)
+        if names:
+            lines += textwrap.wrap(", ".join(names), 100, initial_indent=f"  {group:13}", subsequent_indent=" " * 15)
+    lines += ["", "Settings (setting=value):"]
+    for name, field in RunSettings.__dataclass_fields__.items():
+        doc = field.metadata.get("doc")
+        if doc and name not in ("reading", "cluster"):
+            value = field.default_factory() if callable(field.default_factory) else field.default
+            shown = "" if not isinstance(value, (int, float, str, list)) else f" [{value}]"
+            unit = f" ({field.metadata['unit']})" if field.metadata.get("unit") else ""
+            lines += textwrap.wrap(f"{doc}{unit}{shown}", 100, initial_indent=f"  {name:20}",
+                                   subsequent_indent=" " * 22)
+    return "\n".join(lines)
+
+

@@ -1,0 +1,54 @@
+"""From checked jobs to results: what is missing runs, then the summary, the picture, and the next command to type."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from attnlab.launch.local import cores, run_jobs
+from attnlab.launch.progress import Display
+from attnlab.launch.study import Job, split
+
+
+def drive(jobs: Sequence[Job]) -> int:
+    """Run a study; 0 if all of it is complete now, 1 if a run failed."""
+    first = jobs[0].config
+    todo, done, reasons = split(jobs, first["fresh"])
+    folder = jobs[0].folder.parent
+    if done:
+        why = ", ".join(f"{count} {reason}" for reason, count in reasons.items())
+        print(f"{folder}: {len(done)} of {len(jobs)} runs are complete already"
+              + (f"; running the other {len(todo)} ({why})" if todo else "; nothing to run")
+              + ". fresh=true runs all again.")
+    failed = []
+    if todo:
+        folder.mkdir(parents=True, exist_ok=True)
+        at_once = first["cluster"].get("jobs") or cores()
+        episodes = sum(job.episodes for job in todo)
+        print(f"{folder}: {len(todo)} run{'s' * (len(todo) > 1)}, {episodes:,} episodes, "
+              f"{min(at_once, len(todo))} at a time", flush=True)
+        with Display(len(todo), episodes) as display:
+            run_jobs(todo, at_once, display)
+        failed = display.failed
+    _show(folder, jobs, first)
+    for job, why in failed[:10]:
+        print(f"failed: {job.folder}: {why}", file=sys.stderr)
+    if failed:
+        print(f"{len(failed)} of {len(jobs)} runs failed; the traceback is in run.json of each. The same command runs "
+              "them again.", file=sys.stderr)
+    return 1 if failed else 0
+
+
+def _show(folder: Path, jobs: Sequence[Job], config: dict) -> None:
+    from attnlab.results.load import Study
+    from attnlab.results.summary import print_summary
+    study = Study(folder)
+    names = {job.run for job in jobs}
+    if not any(run in names for run in study.complete):
+        return
+    picture = None
+    if config["picture"]:
+        from attnlab.report import survival_picture
+        picture = survival_picture(folder)
+    print_summary(study, names, picture)

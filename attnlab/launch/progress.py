@@ -1,0 +1,77 @@
+"""One progress display for a whole sweep."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any
+
+from attnlab.launch.study import Job
+
+PLAIN_EVERY_S = 15.0
+
+
+class Display:
+    """Runs done, episodes, cycles a second, time left; plain lines now and then where there is no terminal.
+
+    Use as a context manager around the work.
+    """
+
+    def __init__(self, runs: int, episodes: int):
+        self.runs, self.episodes = runs, episodes
+        self.done_runs = self.done_episodes = self.cycles = 0
+        self.failed: list[tuple[Job, str]] = []
+        self._started = self._last_plain = time.monotonic()
+        self._bar = self._task = None
+
+    def __enter__(self) -> Display:
+        if sys.stderr.isatty():
+            from rich.console import Console
+            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+            self._bar = Progress(TextColumn("{task.description}"), BarColumn(bar_width=None),
+                                 TextColumn("{task.completed:,.0f}/{task.total:,.0f} episodes"),
+                                 TextColumn("{task.fields[speed]}"), TimeElapsedColumn(), TextColumn("left"),
+                                 TimeRemainingColumn(elapsed_when_finished=False),
+                                 console=Console(stderr=True))
+            self._task = self._bar.add_task("", total=self.episodes, speed="")
+            self._bar.start()
+        self.tick()
+        return self
+
+    def __exit__(self, *_) -> None:
+        if self._bar:
+            self._bar.stop()
+
+    @property
+    def cycles_per_s(self) -> float:
+        """Machine cycles a second of wall time, over all runs."""
+        return self.cycles / max(1e-9, time.monotonic() - self._started)
+
+    def advance(self, episodes: int, cycles: int) -> None:
+        self.done_episodes += episodes
+        self.cycles += cycles
+        if self._bar:
+            self._bar.update(self._task, advance=episodes)
+
+    def tick(self) -> None:
+        """Show how things stand."""
+        if self._bar:
+            failed = f", {len(self.failed)} failed" if self.failed else ""
+            self._bar.update(self._task, description=f"run {self.done_runs}/{self.runs}{failed}",
+                             speed=f"{self.cycles_per_s:,.0f} cycles/s")
+        elif time.monotonic() - self._last_plain > PLAIN_EVERY_S:
+            self._last_plain = time.monotonic()
+            share = self.done_episodes / max(1, self.episodes)
+            left = (self._last_plain - self._started) * (1 - share) / share if share else float("nan")
+            print(f"  {self.done_runs}/{self.runs} runs, {self.done_episodes:,}/{self.episodes:,} episodes, "
+                  f"{self.cycles_per_s:,.0f} cycles/s, about {left:.0f} s left", file=sys.stderr, flush=True)
+
+    def run_done(self, job: Job, about: dict[str, Any]) -> None:
+        """A run ended, well or not."""
+        self.done_runs += 1
+        if about.get("status") != "complete":
+            lines = (about.get("error") or "no reason was stored").strip().splitlines()
+            self.failed.append((job, lines[-1]))
+            print_to = self._bar.console.print if self._bar else lambda text: print(text, file=sys.stderr, flush=True)
+            print_to(f"  failed: {job.run}: {lines[-1]}")
+        self.tick()

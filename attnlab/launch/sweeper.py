@@ -1,0 +1,131 @@
+"""Hydra's sweep as a study: every job composed and checked before the first one runs, complete ones left alone.
+
+Registered from the command line under the name ``basic``, in this process only, so that experiment files and
+launchers from other packages can be chosen as usual and no other Hydra application is touched.
+"""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import sys
+import types
+from collections.abc import Sequence
+from typing import Any
+
+from hydra.core.config_store import ConfigStore
+from hydra.core.override_parser.overrides_parser import OverridesParser
+from hydra.core.plugins import Plugins
+from hydra.plugins.search_path_plugin import SearchPathPlugin
+from hydra.plugins.sweeper import Sweeper
+from omegaconf import OmegaConf, open_dict
+
+from attnlab import registry
+from attnlab.argv import RANGED, seeds
+from attnlab.errors import ConfigError
+from attnlab.launch.study import Job, check_place, make_job
+
+MOST_RUNS = 100_000
+NAMESPACE = "hydra_plugins.attnlab"
+
+
+class StudySweeper(Sweeper):
+    """Expands a sweep to jobs and hands them to :mod:`attnlab.launch.drive`.
+
+    ``exit_code`` is what the process should end with: Hydra's main returns nothing.
+    """
+    exit_code = 0
+
+    def __init__(self, params: dict[str, str] | None = None):
+        self.params = params
+
+    def setup(self, *, hydra_context, task_function, config) -> None:
+        self.hydra_context, self.task_function, self.config = hydra_context, task_function, config
+
+    def sweep(self, arguments: list[str]) -> None:
+        from attnlab.launch.drive import drive
+        jobs, swept = self.jobs(arguments)
+        check_place(jobs)
+        type(self).exit_code = drive(jobs)
+
+    def jobs(self, arguments: Sequence[str]) -> tuple[list[Job], list[str]]:
+        """All jobs of the sweep, checked, and the names of the swept settings (but seed)."""
+        parser = OverridesParser.create(config_loader=self.hydra_context.config_loader)
+        given = {override.get_key_element(): override for override in parser.parse_overrides(list(arguments))}
+        params = []
+        for key, value in (self.params or {}).items():
+            text = ",".join(map(str, seeds(key, str(value)))) if key in RANGED else value
+            params.append(f"{key}={text}")
+        merged = {override.get_key_element(): override for override in parser.parse_overrides(params)}
+        merged.update(given)  # what is typed replaces what the experiment sweeps
+        swept = [key.lstrip("+~") for key, override in merged.items() if override.is_sweep_override()]
+        self._check_size(merged.values())
+        choices = [[f"{key}={value}" for value in override.sweep_string_iterator()] if override.is_sweep_override()
+                   else [f"{key}={override.get_value_element_as_str()}"] for key, override in merged.items()]
+        combinations = list(itertools.product(*choices))
+        composed: dict[tuple[str, ...], dict] = {}
+        jobs: dict[str, Job] = {}
+        for overrides in combinations:
+            config = self._compose(tuple(overrides), composed)
+            values = {key: self._value(overrides, key) for key in swept if key != "seed"}
+            job = make_job(config, [o for o in overrides], values)
+            jobs.setdefault(job.key, job)
+        return list(jobs.values()), [key for key in swept if key != "seed"]
+
+    def _check_size(self, overrides) -> None:
+        count = 1
+        for override in overrides:
+            if override.is_discrete_sweep():
+                count *= max(1, sum(1 for _ in override.sweep_string_iterator()))
+            elif override.is_sweep_override():
+                raise ConfigError(override.get_key_element(), "interval(...) cannot be swept over all its values",
+                                  "List them: a,b,c")
+        if count > MOST_RUNS:
+            raise ConfigError("-m", f"this sweep has {count:,} runs, more than {MOST_RUNS:,}")
+
+    def _compose(self, overrides: tuple[str, ...], composed: dict) -> dict[str, Any]:
+        """The resolved config of a job; runs that differ in the seed alone are composed once."""
+        rest = tuple(o for o in overrides if not o.startswith("seed="))
+        if rest not in composed:
+            config = self.hydra_context.config_loader.load_sweep_config(self.config, list(rest))
+            with open_dict(config):
+                config.pop("hydra")
+            composed[rest] = OmegaConf.to_container(config, resolve=True)
+        config = copy.deepcopy(composed[rest])
+        for override in overrides:
+            if override.startswith("seed="):
+                config["seed"] = int(override.partition("=")[2])
+        return config
+
+    @staticmethod
+    def _value(overrides: Sequence[str], key: str) -> Any:
+        import yaml
+        text = next(o.partition("=")[2] for o in overrides if o.partition("=")[0].lstrip("+~") == key)
+        value = yaml.safe_load(text) if text[:1] not in "[{" else text
+        return value if isinstance(value, (int, float, bool, str)) else text
+
+
+class PluginFolders(SearchPathPlugin):
+    """plugins/ may hold config groups too: plugins/world/mine.yaml is ``world=mine``."""
+
+    def manipulate_search_path(self, search_path) -> None:
+        for folder in registry.config_folders():
+            search_path.append(provider="attnlab", path=f"file://{folder}")
+
+
+def register_with_hydra() -> None:
+    """Make Hydra use the above in this process."""
+    plugins = Plugins.instance()
+    # Hydra instantiates plugins of the hydra_plugins namespace alone. A module installed there would be imported by
+    # every Hydra application of the environment, so this one goes by that name in this process only.
+    try:
+        import hydra_plugins as namespace
+    except ImportError:
+        namespace = sys.modules["hydra_plugins"] = types.ModuleType("hydra_plugins")
+        namespace.__path__ = []
+    namespace.attnlab = sys.modules[NAMESPACE] = sys.modules[__name__]
+    for part in (StudySweeper, PluginFolders):
+        part.__module__ = NAMESPACE
+        plugins.register(part)
+    ConfigStore.instance().store(group="hydra/sweeper", name="basic", provider="attnlab", node={
+        "_target_": f"{NAMESPACE}.StudySweeper", "params": None})

@@ -1,0 +1,75 @@
+"""The table at the end of a study, and the command to type next."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from attnlab.results.load import Study
+
+
+def summary_frame(study: Study, runs: set[str] | None = None):
+    """One row a condition (pandas frame): means over seeds of survival (early and late half of training, validation),
+    needs, activations and safety (all of validation, or of training where there is none)."""
+    import pandas as pd
+    episodes, behaviours = study.episodes, study.behaviours
+    if runs is not None:
+        episodes, behaviours = (frame[frame["run"].isin(runs)] for frame in (episodes, behaviours))
+    condition = conditions(study)
+    episodes = episodes.assign(condition=episodes["run"].map(condition))
+    behaviours = behaviours.assign(condition=behaviours["run"].map(condition))
+    rows = []
+    for name, group in episodes.groupby("condition", sort=False):
+        train, valid = group[group["phase"] == "train"], group[group["phase"] == "validation"]
+        half = (train["episode"].max() + 1) / 2
+        shown = valid if len(valid) else train
+        acts = behaviours[(behaviours["condition"] == name) & (behaviours["phase"] == shown["phase"].iloc[0])]
+        acts = acts.groupby("behaviour", sort=False)["activations"].mean()
+        rows.append({
+            "condition": name, "runs": group["run"].nunique(),
+            "early": train.loc[train["episode"] < half, "survival"].mean(),
+            "late": train.loc[train["episode"] >= half, "survival"].mean(),
+            "validation": valid["survival"].mean() if len(valid) else float("nan"),
+            "crashed": (shown["death"] == "crash").mean(), "hunger": shown["hunger_mean"].mean(),
+            "thirst": shown["thirst_mean"].mean(), "energy": shown["energy_mean"].mean(),
+            "safety": shown["safety_mean"].mean(), "activations": " ".join(f"{n:.0f}" for n in acts)})
+    return pd.DataFrame(rows)
+
+
+def conditions(study: Study) -> dict[str, str]:
+    """The name of each run's condition, by run."""
+    from attnlab.results.files import read_json
+    found = {}
+    for run in study.complete:
+        about = read_json(study.path / run / "run.json") or {}
+        found[run] = about.get("condition") or about.get("curiosity") or "all"
+    return found
+
+
+def print_summary(study: Study, runs: set[str], picture: Path | None) -> None:
+    """Print the table, where everything is, and what to type next."""
+    from rich.console import Console
+    from rich.table import Table
+    frame = summary_frame(study, runs)
+    table = Table(title=f"{study.path.name}: means over seeds", title_justify="left")
+    names = list(study.behaviours["behaviour"].unique())
+    heads = {"condition": "condition", "runs": "runs", "early": "survival\nearly", "late": "\nlate",
+             "validation": "\nvalid.", "crashed": "crashed", "hunger": "hunger", "thirst": "thirst",
+             "energy": "energy", "safety": "safety", "activations": "activations\n" + " ".join(names)}
+    for key, head in heads.items():
+        table.add_column(head, justify="left" if key in ("condition", "activations") else "right", overflow="fold")
+    for row in frame.to_dict("records"):
+        shares = {key: f"{row[key]:.1%}" if row[key] == row[key] else "-" for key in
+                  ("early", "late", "validation", "crashed")}
+        table.add_row(str(row["condition"]), str(row["runs"]), *shares.values(), f"{row['hunger']:.0f}",
+                      f"{row['thirst']:.0f}", f"{row['energy']:.0f}", f"{row['safety']:.2f}", row["activations"])
+    console = Console(width=None if _is_terminal() else 110)
+    console.print(table)
+    print(f"results  {study.path}")
+    if picture:
+        print(f"picture  {picture}")
+    print(f"next     python -m attnlab.report {study.path}")
+
+
+def _is_terminal() -> bool:
+    import sys
+    return sys.stdout.isatty()

@@ -1,0 +1,32 @@
+"""Registered parts as config options of Hydra."""
+
+from __future__ import annotations
+
+from attnlab import registry
+from attnlab.experiment import RunSettings
+from attnlab.launch.settings import LocalCluster
+from attnlab.reading import Reading
+from attnlab.settings import defaults_of
+
+GROUPS_OF_RUN = {*registry.GROUPS, "reading", "cluster"}
+
+
+def root_node() -> dict:
+    """The top of the config: every setting that is not a group, with its default."""
+    node = {key: value for key, value in defaults_of(RunSettings).items() if key not in GROUPS_OF_RUN}
+    node["max_cycles"] = "${reading.max_cycles}"
+    return node
+
+
+def store_options() -> None:
+    """Offer every registered part to Hydra; call after :func:`attnlab.registry.load_all`."""
+    from hydra.core.config_store import ConfigStore
+    store = ConfigStore.instance()
+    store.store(name="settings", node=root_node(), provider="attnlab")
+    store.store(group="reading", name="inferred", node={"name": "inferred", **defaults_of(Reading)},
+                provider="attnlab")
+    store.store(group="cluster", name="local", node={"name": "local", **defaults_of(LocalCluster)}, provider="attnlab")
+    for (group, _), spec in registry.parts.items():
+        for option, node in spec.nodes().items():
+            package = f"behaviours.{option}" if group == "behaviours" else None
+            store.store(group=group, name=option, node=node, package=package, provider=spec.origin)
