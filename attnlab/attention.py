@@ -59,7 +59,7 @@ class Attention:
         self.command: tuple[float, float] | None = None
         self.log: list[Activation] = []
         self.wanting = self.liking = 0.0
-        if not self.reading.novelty_persists:
+        if not self.curiosity.persists:
             self.memory = self.curiosity.memory()
         self.behaviour.start()
         self.learner.start()

@@ -23,6 +23,8 @@ class Agent:
 
     def __post_init__(self):
         self.now = Senses(self.simulator, self.body)
+        for attention in self.attentions:
+            attention.curiosity.attach(self.now)
 
     def start(self, x: float, y: float, heading: float) -> None:
         """Everything as at the start of an episode, with the robot at this pose."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import inspect
+import re
 import sys
 import textwrap
 import typing
@@ -41,7 +42,7 @@ def source(spec: registry.Spec) -> str:
 def summary(text: str | None, width: int = 90) -> str:
     """The first sentence of a docstring or comment, on one line."""
     line = " ".join((text or "(no docstring)").split("\n\n")[0].split())
-    return textwrap.shorten(line.split(". ")[0], width, placeholder=" ...")
+    return textwrap.shorten(re.split(r"(?<!al)\. ", line)[0], width, placeholder=" ...")
 
 
 def named_configs() -> dict[tuple[str, str], Path]:

@@ -19,7 +19,7 @@ class Senses:
 
     A sensor is read when it is first asked for, and once a cycle: two behaviours that fire together share the image.
     """
-    __slots__ = ("simulator", "body", "cycle", "_front", "_front_at", "_blobs", "_blobs_at")
+    __slots__ = ("simulator", "body", "cycle", "_front", "_front_at", "_blobs", "_blobs_at", "_ring", "_ring_at")
 
     def __init__(self, simulator: Simulator, body: Body):
         self.simulator, self.body = simulator, body
@@ -28,7 +28,7 @@ class Senses:
     def start(self) -> None:
         """Forget the last episode's readings."""
         self.cycle = 0
-        self._front_at = self._blobs_at = -1
+        self._front_at = self._blobs_at = self._ring_at = -1
 
     def front_distances(self) -> list[float]:
         """Echoes of the 8 frontal sonars as distances from the robot's centre, m, left to right."""
@@ -36,6 +36,13 @@ class Senses:
             self._front = centre_distances(self.simulator.sonar()[:len(FRONT)])
             self._front_at = self.cycle
         return self._front
+
+    def ring(self) -> list[float]:
+        """Echoes of all 16 sonars as distances from the robot's centre, m, in the order of the ring."""
+        if self._ring_at != self.cycle:
+            self._ring = centre_distances(self.simulator.sonar())
+            self._ring_at = self.cycle
+        return self._ring
 
     def blobs(self, kind: str) -> list[Blob]:
         """The cubes of this kind in view, empty sources left out."""
