@@ -1,0 +1,145 @@
+"""Statistics over seeds: means, seeded bootstrap intervals, paired differences, effect sizes, tests."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+RESAMPLES = 2000
+
+
+class Interval(NamedTuple):
+    """An estimate with the ends of its interval; the ends are nan when there are fewer than two seeds."""
+    value: float
+    low: float
+    high: float
+
+
+def mean(values: Sequence[float]) -> float:
+    """The mean of what is not missing; nan for nothing."""
+    kept = _kept(values)
+    return float(kept.mean()) if kept.size else float("nan")
+
+
+def iqm(values: Sequence[float]) -> float:
+    """Interquartile mean: the mean of the middle half (Agarwal et al. 2021), scipy's 25 % trimmed mean."""
+    from scipy.stats import trim_mean
+    kept = _kept(values)
+    return float(trim_mean(kept, 0.25)) if kept.size else float("nan")
+
+
+@lru_cache(maxsize=64)
+def _resampled(n: int, resamples: int, seed: int) -> np.ndarray:
+    """Indices of bootstrap samples, shape (resamples, n)."""
+    return np.random.default_rng([seed, n]).integers(0, n, (resamples, n))
+
+
+def bootstrap_interval(values: Sequence[float], statistic: str = "mean", confidence: float = 0.95,
+                       resamples: int = RESAMPLES, seed: int = 0) -> Interval:
+    """Percentile bootstrap interval of the ``mean`` or ``iqm`` over seeds; missing values are left out."""
+    from scipy.stats import trim_mean
+    kept = _kept(values)
+    value = iqm(kept) if statistic == "iqm" else mean(kept)
+    if kept.size < 2:
+        return Interval(value, float("nan"), float("nan"))
+    samples = kept[_resampled(kept.size, resamples, seed)]
+    drawn = trim_mean(samples, 0.25, axis=1) if statistic == "iqm" else samples.mean(axis=1)
+    tail = (1 - confidence) / 2
+    low, high = np.quantile(drawn, [tail, 1 - tail])
+    return Interval(value, float(low), float(high))
+
+
+def bootstrap_band(values: np.ndarray, confidence: float = 0.95, resamples: int = RESAMPLES,
+                   seed: int = 0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(mean, low, high), each of shape (x,), of ``values`` with shape (seeds, x): whole seeds are drawn, so that a band
+    keeps a seed's curve together. A cell nobody has is nan; low and high are nan where fewer than two seeds are."""
+    values = np.asarray(values, float)
+    present = ~np.isnan(values)
+    count = present.sum(axis=0)
+    filled = np.where(present, values, 0.0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        centre = filled.sum(axis=0) / count
+    nothing = np.full(values.shape[1], np.nan)
+    n = values.shape[0]
+    if n < 2:
+        return centre, nothing, nothing.copy()
+    weights = np.zeros((resamples, n))
+    np.add.at(weights, (np.arange(resamples)[:, None], _resampled(n, resamples, seed)), 1.0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        drawn = (weights @ filled) / (weights @ present.astype(float))
+    tail = (1 - confidence) / 2
+    low, high = nothing.copy(), nothing.copy()
+    some = count >= 2
+    if some.any():
+        low[some], high[some] = np.nanquantile(drawn[:, some], [tail, 1 - tail], axis=0)
+    return centre, low, high
+
+
+def paired(treatment: dict[int, float], control: dict[int, float]) -> np.ndarray:
+    """Differences treatment - control of the seeds that both have, in the order of the seeds; missing ones left out."""
+    seeds = sorted(set(treatment) & set(control))
+    return _kept([treatment[seed] - control[seed] for seed in seeds])
+
+
+def effect_size(values: Sequence[float], reference: float = 0.0) -> float:
+    """Cohen's d of (paired) values against a reference: (mean - reference) / standard deviation (n - 1).
+
+    nan for fewer than two values; infinite if all are the same and differ from the reference.
+    """
+    kept = _kept(values)
+    if kept.size < 2:
+        return float("nan")
+    shift, spread = kept.mean() - reference, kept.std(ddof=1)
+    if spread < 1e-12 * max(1.0, abs(kept).max()):
+        return 0.0 if abs(shift) < 1e-12 else float(np.copysign(np.inf, shift))
+    return float(shift / spread)
+
+
+def improvement(treatment: Sequence[float], control: Sequence[float]) -> float:
+    """Probability of improvement: that a treatment run beats a control run, ties half (Mann-Whitney U / nm)."""
+    from scipy.stats import mannwhitneyu
+    a, b = _kept(treatment), _kept(control)
+    if not a.size or not b.size:
+        return float("nan")
+    return float(mannwhitneyu(a, b).statistic / (a.size * b.size))
+
+
+@lru_cache(maxsize=64)
+def _signs(n: int, draws: int, seed: int) -> tuple[np.ndarray, bool]:
+    """Sign patterns, shape (patterns, n), and whether they are all there are."""
+    if 2 ** n <= draws:
+        return 1.0 - 2.0 * ((np.arange(2 ** n)[:, None] >> np.arange(n)) & 1), True
+    return np.random.default_rng([seed, n]).choice([-1.0, 1.0], (draws, n)), False
+
+
+def sign_flip_p(values: Sequence[float], reference: float = 0.0, draws: int = 10_000, seed: int = 0) -> float:
+    """Two-sided p value of "the mean is ``reference``" by flipping the signs of the deviations (Fisher's paired
+    permutation test): exact while 2^n <= ``draws``, else seeded draws. nan for fewer than two values."""
+    kept = _kept(values) - reference
+    if kept.size < 2:
+        return float("nan")
+    patterns, exact = _signs(kept.size, draws, seed)
+    sums, seen = abs(patterns @ kept), abs(kept.sum())
+    as_extreme = int((sums >= seen - 1e-9 * max(1.0, seen)).sum())
+    return as_extreme / len(patterns) if exact else (as_extreme + 1) / (len(patterns) + 1)
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """Holm's step-down correction, in the order given; nan stays nan and is not counted."""
+    p = np.asarray(p_values, float)
+    adjusted = np.full(p.shape, np.nan)
+    known = np.flatnonzero(~np.isnan(p))
+    order = known[np.argsort(p[known], kind="stable")]
+    top = 0.0
+    for rank, index in enumerate(order):
+        top = max(top, min(1.0, (len(order) - rank) * p[index]))
+        adjusted[index] = top
+    return adjusted.tolist()
+
+
+def _kept(values) -> np.ndarray:
+    array = np.asarray(values, float).ravel()
+    return array[~np.isnan(array)]
