@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import inspect
-import re
 import sys
 import textwrap
 import typing
@@ -39,10 +38,11 @@ def source(spec: registry.Spec) -> str:
     return "built in" if origin.is_relative_to(PACKAGE) else "package"
 
 
-def summary(text: str | None, width: int = 90) -> str:
-    """The first sentence of a docstring or comment, on one line."""
-    line = " ".join((text or "(no docstring)").split("\n\n")[0].split())
-    return textwrap.shorten(re.split(r"(?<!al)\. ", line)[0], width, placeholder=" ...")
+def summary(cls: type, width: int = 100) -> str:
+    """The first paragraph on one line: of the file if it holds one part, otherwise of the class."""
+    alone = sum(spec.cls.__module__ == cls.__module__ for spec in registry.parts.values()) == 1
+    text = (alone and sys.modules[cls.__module__].__doc__) or inspect.getdoc(cls) or "(no docstring)"
+    return textwrap.shorten(text.strip().split("\n\n")[0], width, placeholder=" ...")
 
 
 def named_configs() -> dict[tuple[str, str], Path]:
@@ -132,13 +132,13 @@ def rows(group: str) -> Iterable[tuple[str, str, str]]:
         yield "inferred", "built in", "The default reading of the paper's open points"
     for spec in sorted((s for s in registry.parts.values() if s.group == group), key=lambda s: s.name):
         where = "built in" if source(spec) == "built in" else f"{source(spec)}, {short(spec.origin)}"
-        yield spec.name, where, summary(inspect.getdoc(spec.cls))
+        yield spec.name, where, summary(spec.cls)
         for preset, values in sorted(spec.presets.items()):
             yield preset, where, f"{spec.name} with " + ", ".join(f"{k}={v}" for k, v in values.items())
     for (owner, name), file in named_configs().items():
         if owner == group:
             first = file.read_text().partition("\n")[0]
-            yield name, "config", summary(first.lstrip("# ") if first.startswith("#") else short(str(file)))
+            yield name, "config", first.lstrip("# ") if first.startswith("#") else short(str(file))
 
 
 def table() -> str:

@@ -18,10 +18,12 @@ NONE, LOW, LH, HH = "none", "low", "LH", "HH"
 
 @dataclass(frozen=True)
 class CuriosityContext:
-    """What a curiosity is built from. ``bins``: number of percepts; ``draw``: its own random stream."""
+    """What a curiosity is built from. ``bins``: number of percepts; ``draw``: its own random stream; ``depth``: of a
+    model inside another."""
     reading: Reading
     bins: int
     draw: Random
+    depth: int = 0
 
 
 class Curiosity(ABC):

@@ -1,0 +1,78 @@
+"""A habituating novelty filter over the sonars."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import dist, exp
+
+from attnlab.curiosity.base import Curiosity
+from attnlab.registry import register
+from attnlab.settings import setting
+
+
+@dataclass
+class Units:
+    """Prototypes of the sonar ring (16 numbers in [0, 1] each) and how fresh each still is (1 new, towards 0)."""
+    weights: list[list[float]] = field(default_factory=list)
+    fresh: list[float] = field(default_factory=list)
+
+    def winner(self, view: list[float]) -> tuple[int, float]:
+        """(index, activity exp(-||x - w||)) of the nearest unit; (-1, 0) if there is none."""
+        if not self.weights:
+            return -1, 0.0
+        distances = [dist(view, w) for w in self.weights]
+        nearest = min(distances)
+        return distances.index(nearest), exp(-nearest)
+
+
+@register("curiosity", "habituation")
+class Habituation(Curiosity):
+    """Marsland, Nehmzow & Shapiro 2000 (Proc. SAB, p. 297) with the growing network of Marsland, Shapiro & Nehmzow 2002
+    (Neural Networks 15:1041), less its edges: units grow over the 16 sonars.
+
+    A unit's activity is exp(-||x - w||), x the ring's distances over ``range_m``, at most 1. Novelty (the liking) is
+    the freshness y of the winner. When the winner is seen, y <- y + (alpha (1 - y) - 1)/tau, not below 0, and w moves
+    by ``rate`` y towards x. If its activity is below ``activity`` though it is habituated (y below ``habituated``), x
+    is new: liking 1, and a unit grows halfway between. At ``units`` units growth stops. Reads the sonars; ignores the
+    percept. Draws nothing at random.
+    """
+
+    @dataclass
+    class Params:
+        range_m: float = setting(2.0, "distances from here on look alike", unit="m", above=0)
+        activity: float = setting(0.6, "below it a habituated winner does not stand for the view", above=0, high=1)
+        habituated: float = setting(0.3, "freshness below which a unit is habituated", above=0, high=1)
+        tau: float = setting(3.33, "time constant of habituation", unit="observations", low=1)
+        alpha: float = setting(1.05, "recovery; freshness tends to 1 - 1/alpha", above=0)
+        rate: float = setting(0.1, "of the winner's move towards the view", low=0, high=1)
+        units: int = setting(100, "most units", low=1, high=10_000)
+        persists: bool = setting(True, "keep the units from one episode to the next")
+
+    def memory(self) -> Units:
+        return Units()
+
+    def _view(self) -> list[float]:
+        reach = self.params.range_m
+        return [d / reach if d < reach else 1.0 for d in self.now.ring()]
+
+    def _is_new(self, memory: Units, winner: int, activity: float) -> bool:
+        p = self.params
+        return winner < 0 or (activity < p.activity and memory.fresh[winner] < p.habituated
+                              and len(memory.weights) < p.units)
+
+    def liking(self, memory: Units, percept: int) -> float:
+        winner, activity = memory.winner(self._view())
+        return 1.0 if self._is_new(memory, winner, activity) else memory.fresh[winner]
+
+    def observe(self, memory: Units, percept: int) -> None:
+        view, p = self._view(), self.params
+        winner, activity = memory.winner(view)
+        if self._is_new(memory, winner, activity):
+            old = memory.weights[winner] if winner >= 0 else view
+            memory.weights.append([(x + w) / 2 for x, w in zip(view, old, strict=True)])
+            memory.fresh.append(1.0)
+            winner = len(memory.fresh) - 1
+        fresh, unit = memory.fresh[winner], memory.weights[winner]
+        for i, x in enumerate(view):
+            unit[i] += p.rate * fresh * (x - unit[i])
+        memory.fresh[winner] = max(0.0, fresh + (p.alpha * (1.0 - fresh) - 1.0) / p.tau)

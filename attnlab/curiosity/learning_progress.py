@@ -1,0 +1,51 @@
+"""Curiosity as learning progress."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from attnlab.curiosity.base import Curiosity
+from attnlab.curiosity.prediction_error import Transitions, unknowing
+from attnlab.registry import register
+from attnlab.settings import setting
+
+
+@register("curiosity", "learning_progress")
+class LearningProgress(Curiosity):
+    """Oudeyer & Kaplan 2007 (Front. Neurorobot. 1:6), after Schmidhuber 1991: liking is how much the prediction error
+    has fallen, gain * max(0, <e>(t - delay) - <e>(t)), at most 1, where <e> is the mean of ``window`` errors.
+
+    One history of errors for each percept (a cell of the sensory space): that of predicting what followed it. What is
+    known and what cannot be known are both boring. Memory: (transitions, errors by cell). Draws nothing at random.
+    """
+
+    @dataclass
+    class Params:
+        rate: float = setting(0.1, "learning rate of the model", above=0, high=1)
+        window: int = setting(10, "errors that are averaged", unit="observations", low=1, high=10_000)
+        delay: int = setting(10, "how far back it is compared", unit="observations", low=1, high=10_000)
+        gain: float = setting(4.0, "liking for each unit of progress", above=0)
+        persists: bool = setting(True, "keep the model from one episode to the next")
+
+    def memory(self) -> tuple[Transitions, list[list[float]]]:
+        return unknowing(self.bins), [[] for _ in range(self.bins)]
+
+    def progress(self, errors: list[float]) -> float:
+        """<e>(t - delay) - <e>(t) of one cell; 0 until there are window + delay errors."""
+        p = self.params
+        if len(errors) < p.window + p.delay:
+            return 0.0
+        then = errors[-p.window - p.delay:len(errors) - p.delay]
+        return (sum(then) - sum(errors[-p.window:])) / p.window
+
+    def liking(self, memory, percept: int) -> float:
+        return min(1.0, max(0.0, self.params.gain * self.progress(memory[1][percept])))
+
+    def observe(self, memory, percept: int) -> None:
+        model, cells = memory
+        if model.last >= 0:
+            errors = cells[model.last]
+            errors.append(model.error(percept))
+            if len(errors) > self.params.window + self.params.delay:
+                errors.pop(0)
+        model.learn(percept, self.params.rate)
