@@ -17,6 +17,7 @@ CLEAR_M = 0.05  # the base hangs this far above the floor
 def add_floor(p, client: int) -> int:
     """An endless floor for the wheels; the base never touches it."""
     floor = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client), physicsClientId=client)
+    hide(p, client, floor)
     p.setCollisionFilterGroupMask(floor, -1, WORLD_GROUP, WORLD_GROUP | ROBOT_GROUP, physicsClientId=client)
     return floor
 
@@ -34,9 +35,17 @@ def add_solids(p, client: int, layout: Layout, draw_all: bool) -> dict[int, int]
         body = p.createMultiBody(0, shape, look, (solid.x_m, solid.y_m, solid.height_m / 2),
                                  (0, 0, sin(solid.yaw_rad / 2), cos(solid.yaw_rad / 2)), physicsClientId=client)
         p.setCollisionFilterGroupMask(body, -1, WORLD_GROUP, WORLD_GROUP | ROBOT_GROUP, physicsClientId=client)
+        if not drawn:
+            hide(p, client, body)
         if solid.kind != "wall":
             seen[body] = index
     return seen
+
+
+def hide(p, client: int, body: int) -> None:
+    """Keep a body out of the image: without a visual shape of its own Bullet draws its collision shape."""
+    for link in range(-1, p.getNumJoints(body, physicsClientId=client)):
+        p.changeVisualShape(body, link, rgbaColor=(0, 0, 0, 0), physicsClientId=client)
 
 
 def add_robot(p, client: int, wheels: bool, visible: bool) -> tuple[int, float, tuple[int, ...]]:
@@ -52,6 +61,8 @@ def add_robot(p, client: int, wheels: bool, visible: bool) -> tuple[int, float, 
     if not wheels:
         body = p.createMultiBody(1, base, look, (0, 0, base_z), physicsClientId=client)
         p.setCollisionFilterGroupMask(body, -1, ROBOT_GROUP, WORLD_GROUP, physicsClientId=client)
+        if not visible:
+            hide(p, client, body)
         return body, base_z, ()
     wheel = p.createCollisionShape(p.GEOM_CYLINDER, radius=WHEEL_RADIUS_M, height=0.04, physicsClientId=client)
     ball = p.createCollisionShape(p.GEOM_SPHERE, radius=0.03, physicsClientId=client)
@@ -70,4 +81,6 @@ def add_robot(p, client: int, wheels: bool, visible: bool) -> tuple[int, float, 
     for link in range(-1, 4):
         p.setCollisionFilterGroupMask(body, link, ROBOT_GROUP, WORLD_GROUP, physicsClientId=client)
     p.changeDynamics(body, -1, linearDamping=0, angularDamping=0, physicsClientId=client)
+    if not visible:
+        hide(p, client, body)
     return body, base_z, (0, 1)

@@ -7,7 +7,7 @@ import ctypes
 import os
 import weakref
 from dataclasses import dataclass
-from math import cos, degrees, pi, sin
+from math import cos, pi, sin
 
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -71,9 +71,7 @@ class PyBullet(Simulator):
         self._substeps = max(1, round(self.dt_s * PHYSICS_HZ))
         self._mask_index: dict[int, int] = {}
         self._build()
-        cam = self.camera
-        self._projection = p.computeProjectionMatrixFOV(degrees(cam.vertical_fov_rad), cam.columns / cam.rows, 0.2, 30.0,
-                                                        physicsClientId=self._client)
+        self._projection = self._frustum(0.2, 30.0)
         reach = params.sonar_range_m
         z = SONAR_HEIGHT_M - self._base_z
         self._ray_from = [(x, y, z) for x, y, _ in SONARS]
@@ -91,6 +89,15 @@ class PyBullet(Simulator):
             add_floor(p, c)
         self._mask_index = add_solids(p, c, self.layout, self.params.gui)
         self._robot, self._base_z, self._joints = add_robot(p, c, self._wheels, self.params.gui)
+
+    def _frustum(self, near: float, far: float) -> list[float]:
+        """The camera's projection. Bullet's renderer samples a pixel at its corner of least coordinates, not at its
+        centre, so the view is shifted by half a pixel to the left and up."""
+        cam = self.camera
+        pixel = near / cam.focal_px
+        right, top = cam.columns / 2 * pixel, cam.rows / 2 * pixel
+        return self._p.computeProjectionMatrix(pixel / 2 - right, pixel / 2 + right, pixel / 2 - top, pixel / 2 + top,
+                                               near, far)
 
     def place(self, x: float, y: float, heading: float) -> None:
         if self._wheels:  # contacts with the floor would be remembered; kinematic motion has no memory but the pose
