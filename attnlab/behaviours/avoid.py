@@ -25,10 +25,10 @@ class Avoid(Behaviour):
     @dataclass
     class Params:
         turn_rad_s: float = setting(0.8, "theta_max: turn of one sonar of weight 1", unit="rad/s", above=0)
-        active_range_m: float = setting(0.65, "a sonar is active when it hears something nearer than this to the centre",
-                                        unit="m", above=0)
-        blocked_m: float = setting(0.55, "the way is blocked when one of the four foremost sonars hears something nearer",
-                                   unit="m", above=0)
+        active_margin_m: float = setting(0.3, "a sonar is active when it hears something nearer to the centre than "
+                                         "this beyond reading.stop_distance_m", unit="m", low=0)
+        blocked_margin_m: float = setting(0.2, "the way is blocked when one of the four foremost sonars hears something "
+                                          "nearer than this beyond reading.stop_distance_m", unit="m", low=0)
         weights: list[float] = setting([0.2, 0.5, 0.8, 1.0], "of the sonars at 90, 50, 30, 10 degrees", low=0)
 
     def __init__(self, params: Params, context):
@@ -40,6 +40,8 @@ class Avoid(Behaviour):
         half = list(params.weights)
         self._turns = [(-1.0 if SONARS[i][2] > 0 else 1.0) * weight * params.turn_rad_s
                        for i, weight in zip(FRONT, half + half[::-1], strict=True)]
+        self._active_m = r.stop_m + params.active_margin_m
+        self._blocked_m = r.stop_m + params.blocked_margin_m
         self._side = 0.0
 
     def start(self) -> None:
@@ -49,12 +51,12 @@ class Avoid(Behaviour):
         return min(self.sigma_high, max(self.sigma_low, min(now.front_distances())))
 
     def command(self, now: Senses, sigma: float) -> Command:
-        p, r = self.params, self.reading
+        r = self.reading
         heard = now.front_distances()
-        near, free, stop = min(heard), self.sigma_high, r.stop_distance_m
+        near, free, stop = min(heard), self.sigma_high, r.stop_m
         v = r.v_max_m_s * min(1.0, max(0.0, (near - stop) / (free - stop)))
-        w = sum(turn for turn, d in zip(self._turns, heard, strict=True) if d < p.active_range_m)
-        if min(heard[2:6]) >= p.blocked_m:
+        w = sum(turn for turn, d in zip(self._turns, heard, strict=True) if d < self._active_m)
+        if min(heard[2:6]) >= self._blocked_m:
             self._side = 0.0
             return v, w
         if self._side == 0.0:
