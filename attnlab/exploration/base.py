@@ -19,3 +19,7 @@ class Exploration(ABC):
     @abstractmethod
     def choose(self, values: list[float], visits: list[int], draw: Random) -> int:
         """The index of the chosen action; ``visits`` counts how often each was tried in this state."""
+
+    def probabilities(self, values: list[float], visits: list[int]) -> list[float]:
+        """How likely each action is; only learners that average over their own policy ask."""
+        raise NotImplementedError(f"exploration '{self.name}' does not say how likely its choices are")

@@ -14,3 +14,7 @@ class Greedy(Exploration):
 
     def choose(self, values: list[float], visits: list[int], draw: Random) -> int:
         return values.index(max(values))
+
+    def probabilities(self, values: list[float], visits: list[int]) -> list[float]:
+        best = values.index(max(values))
+        return [1.0 if i == best else 0.0 for i in range(len(values))]

@@ -26,3 +26,6 @@ class Softmax(Exploration):
             if left < 0.0:
                 return action
         return values.index(max(values))  # rounding: the probabilities summed to a hair less than 1
+
+    def probabilities(self, values: list[float], visits: list[int]) -> list[float]:
+        return softmax(values, self.params.tau)

@@ -1,0 +1,88 @@
+"""Checks for parts of every group: documented and typed parameters, no hidden randomness, a whole run."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import math
+import random
+import typing
+from collections.abc import Callable
+from typing import Any
+
+from attnlab import registry
+from attnlab.settings import build, defaults_of
+from attnlab.testing.build import config
+
+
+def checks(group: str) -> list[Callable]:
+    """Checks of :data:`group` that need nothing special."""
+    def documented(name: str, **settings: Any) -> None:
+        """The class says what it is; every parameter says what it means."""
+        spec = registry.find(group, name)
+        assert (inspect.getdoc(spec.cls) or "").strip(), f"{spec.origin}: {spec.cls.__name__} has no docstring"
+        for field in dataclasses.fields(spec.params):
+            assert field.metadata.get("doc"), f"{spec.origin}: parameter {field.name} has no doc: use setting(...)"
+
+    def typed(name: str, **settings: Any) -> None:
+        """Parameters have types that a config can be checked against, and their defaults pass."""
+        spec = registry.find(group, name)
+        hints = typing.get_type_hints(spec.params)
+        assert {field.name for field in dataclasses.fields(spec.params)} <= set(hints), spec.origin
+        defaults = defaults_of(spec.params)
+        assert defaults_of(type(build(spec.params, defaults, group))) == defaults
+        assert plain(defaults), f"{spec.origin}: a default is no number, word, list or mapping: {defaults}"
+
+    def runs(name: str, **settings: Any) -> None:
+        """A short run with it is complete, finite, and the same when it is run again."""
+        first = whole_run(group, name, settings)
+        for table, columns in first.items():
+            for column, values in columns.items():
+                bad = [v for v in values if isinstance(v, float) and not math.isfinite(v)]
+                assert not bad, f"{name}: {table}.{column} holds {bad[0]}"
+        assert repr(first) == repr(whole_run(group, name, settings)), f"{name}: a second run gave other numbers"
+
+    def no_hidden_randomness(name: str, **settings: Any) -> None:
+        """Nothing is drawn from ``random`` or ``numpy.random``, neither read nor moved: draw from context.draw."""
+        import numpy as np
+        saved = random.getstate(), np.random.get_state()
+        try:
+            results = []
+            for seed in (1, 2):
+                random.seed(seed)
+                np.random.seed(seed)
+                before = random.getstate(), repr(np.random.get_state())
+                results.append(repr(whole_run(group, name, settings)))
+                after = random.getstate(), repr(np.random.get_state())
+                assert before == after, f"{name}: moves the global random state; draw from context.draw"
+            assert results[0] == results[1], f"{name}: its numbers depend on the global random state"
+        finally:
+            random.setstate(saved[0])
+            np.random.set_state(saved[1])
+
+    if group == "world":
+        return [documented, typed]
+    return [documented, typed, runs, no_hidden_randomness]
+
+
+def plain(value: Any) -> bool:
+    """Is this what a config file can hold?"""
+    if isinstance(value, dict):
+        return all(isinstance(key, str) and plain(item) for key, item in value.items())
+    if isinstance(value, (list, tuple)):
+        return all(map(plain, value))
+    return value is None or isinstance(value, (bool, int, float, str))
+
+
+def whole_run(group: str, name: str, settings: dict) -> dict:
+    """The tables of a short run that uses the part."""
+    from attnlab.experiment import Experiment
+    from attnlab.run import run_experiment
+    if group == "behaviours":
+        chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))))
+        chosen["behaviours"][name].update(settings)
+    else:
+        chosen = config(**{group: {"name": name, **settings}})
+    return run_experiment(Experiment(chosen))[0]
+
+

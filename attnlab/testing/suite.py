@@ -1,0 +1,38 @@
+"""The suite: which checks a part of each group must pass."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from attnlab import registry
+from attnlab.errors import ConfigError
+from attnlab.testing import behaviour, body, common, curiosity, learner, world
+
+Check = Callable[..., None]  # (name, **settings)
+
+CHECKS: dict[str, tuple] = {"curiosity": curiosity.CHECKS, "learner": learner.LEARNER,
+                            "exploration": learner.EXPLORATION, "behaviours": behaviour.CHECKS, "needs": body.NEEDS,
+                            "fusion": body.FUSION, "simulator": world.SIMULATOR, "world": world.WORLD}
+
+
+def checks(group: str) -> dict[str, Check]:
+    """The checks of a group by name; each is called with the part's name and settings, and raises if it fails."""
+    if group not in CHECKS:
+        raise ConfigError(group, "no such group", f"Known: {', '.join(CHECKS)}")
+    return {check.__name__: check for check in (*common.checks(group), *CHECKS[group])}
+
+
+def conformance(group: str, name: str, **settings: Any) -> Callable:
+    """A pytest function over all checks of one part; call the result ``test_...`` in a test file."""
+    import pytest
+    found = checks(group)
+
+    @pytest.mark.parametrize("check", found)
+    def test(check: str) -> None:
+        registry.load_all()
+        if registry.find(group, name) is None:
+            raise registry.unknown(group, name, group)
+        found[check](name, **settings)
+    test.__doc__ = f"{group} '{name}' keeps what every part of its group promises."
+    return test
