@@ -27,7 +27,7 @@ def strides_like_steps(name: str, **settings: Any) -> None:
             assert stepped[:-1] == [None] * (cycles - 1), f"{name}: died earlier step by step than until_death says"
             assert stepped[-1] == cause
             pairs = zip([*stride.values, stride.energy], [*step.values, step.energy], strict=True)
-            assert all(abs(a - b) < 1e-6 for a, b in pairs), f"{name}: {stride.values} in a stride, {step.values} in steps"
+            assert all(abs(a - b) < 1e-6 for a, b in pairs), f"{name}: {stride.values} at once, {step.values} in steps"
 
 
 def starts_anew(name: str, **settings: Any) -> None:

@@ -88,7 +88,8 @@ def deterministic(name: str, **settings: Any) -> None:
 
 def serialisable(name: str, **settings: Any) -> None:
     """A memory that was pickled and read back goes on as if nothing had happened."""
-    assert signals(name, settings) == signals(name, settings, restart=True), f"{name}: a pickled memory went on otherwise"
+    straight, restarted = signals(name, settings), signals(name, settings, restart=True)
+    assert straight == restarted, f"{name}: a pickled memory went on otherwise"
 
 
 def memories_apart(name: str, **settings: Any) -> None:

@@ -38,7 +38,7 @@ def actions_in_range(name: str, **settings: Any) -> None:
     """Every decision is an index of the periods, every value is a finite number, one for each period."""
     learner, trace = journey(name, settings)
     for action, values in trace:
-        assert isinstance(action, int) and 0 <= action < learner.actions, f"{name}: chose {action}, no index of a period"
+        assert isinstance(action, int) and 0 <= action < learner.actions, f"{name}: chose {action}, no period's index"
         assert len(values) == learner.actions and all(map(math.isfinite, values)), f"{name}: values {values}"
 
 
