@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from attnlab.results.schema import SCHEMA_VERSION, TABLES
 
 if TYPE_CHECKING:
     import pandas as pd
+    import pyarrow as pa
 
 
 def load(study: str | Path) -> Study:
@@ -94,23 +96,32 @@ class Study:
         return [name for name, (status, _, _) in self._states.items()
                 if status == "complete" and name not in self._broken]
 
-    def _table(self, table: str) -> pd.DataFrame:
+    def about(self, run: str) -> dict:
+        """run.json of a run; empty if it has none."""
+        return self._states[run][2]
+
+    def _table(self, table: str, cut: Callable[[pa.Table], pa.Table] | None = None) -> pd.DataFrame:
+        """Rows of all complete runs, of each what ``cut`` leaves. Arrow tables are joined before pandas sees them."""
         import pandas as pd
-        frames = []
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+        tables = []
         for name in self.complete:
             try:
-                frame = pd.read_parquet(self.path / name / f"{table}.parquet")
+                found = pq.read_table(self.path / name / f"{table}.parquet", partitioning=None)
             except Exception as cause:  # noqa: BLE001  whatever the reader makes of a damaged file, the others go on
                 self._broken[name] = f"{table}.parquet: {cause}"
                 self.__dict__.pop("runs", None)
                 continue
-            if "episode" in frame and table != "cycles":
+            found = found if cut is None else cut(found)
+            if "episode" in found.column_names and table != "cycles":
                 for setting in self.swept:
-                    if setting not in frame:
-                        frame[setting] = self._setting(name, setting)
-            frames.append(frame)
-        frames = [frame for frame in frames if len(frame)] or frames[:1]
-        return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
+                    if setting not in found.column_names:
+                        value = pa.array([self._setting(name, setting)] * len(found))
+                        found = found.append_column(setting, value)
+            tables.append(found)
+        tables = [found for found in tables if len(found)] or tables[:1]
+        return _join(tables) if tables else pd.DataFrame()
 
     def _setting(self, run: str, setting: str):
         """A setting of a run that was not swept when it ran, from its config."""
@@ -137,8 +148,33 @@ class Study:
         return self._table("cycles")
 
     @cached_property
+    def last_cycles(self) -> pd.DataFrame:
+        """``cycles`` of the last recorded episode of each run alone: small, however much was recorded."""
+        return self._table("cycles", _last_episode)
+
+    @cached_property
     def coverage(self) -> pd.DataFrame:
         return self._table("coverage")
+
+
+def _last_episode(cycles: pa.Table) -> pa.Table:
+    """The rows at the end that belong to the last row's phase and episode."""
+    import numpy as np
+    if not len(cycles):
+        return cycles
+    episode, phase = (cycles.column(name).to_numpy() for name in ("episode", "phase"))
+    others = np.flatnonzero((episode != episode[-1]) | (phase != phase[-1]))
+    return cycles.slice(others[-1] + 1 if others.size else 0)
+
+
+def _join(tables: list[pa.Table]) -> pd.DataFrame:
+    """One frame of all rows; a column that a run lacks is empty there, and one of mixed types becomes text."""
+    import pyarrow as pa
+    try:
+        return pa.concat_tables(tables, promote_options="permissive").to_pandas()
+    except (pa.ArrowInvalid, pa.ArrowTypeError):
+        import pandas as pd
+        return pd.concat([found.to_pandas() for found in tables], ignore_index=True)
 
 
 def _looks_like_run(folder: Path) -> bool:

@@ -1,0 +1,225 @@
+"""A study seen as conditions: which runs belong together, what sets them apart, what they are called.
+
+Runs are sorted by curiosity, by the swept settings, and by any setting that differs although nobody swept it (two
+studies mixed in one folder). Everything that goes beyond one run (measures, claims, figures) reads through here.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from attnlab.results.load import Study
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from attnlab.reading import Reading
+
+IGNORED = ("seed", "study", "outputs", "fresh", "picture", "report", "labels", "cluster", "claims", "experiment")
+
+
+class Runs:
+    """Some runs of a study, one a seed: what a measure is given. ``runs`` maps seed -> run name."""
+
+    def __init__(self, conditions: Conditions, where: Mapping[str, Any], runs: Mapping[int, str]):
+        self.conditions, self.where, self.runs = conditions, dict(where), dict(runs)
+
+    def rows(self, table: str, **equal: Any) -> pd.DataFrame:
+        """Rows of these runs in a table, with a ``seed`` column; ``equal``: column=value to keep."""
+        return self.conditions.rows(table, self.runs, equal)
+
+    def config(self, seed: int) -> dict:
+        """The resolved config of the run with this seed."""
+        return self.conditions.configs[self.runs[seed]]
+
+    def reading(self) -> Reading:
+        """The reading of the first run; a setting that its config does not mention has its default."""
+        from attnlab.reading import Reading
+        config = self.config(min(self.runs))
+        names = {field.name for field in dataclasses.fields(Reading)}
+        known = {k: v for k, v in (config.get("reading") or {}).items() if k in names}
+        return dataclasses.replace(Reading(), **known, **({"max_cycles": config["max_cycles"]}
+                                                          if config.get("max_cycles") else {}))
+
+    def setting(self, name: str, seed: int | None = None) -> Any:
+        """A setting by its dotted name from the first (or the given) run; None if there is none."""
+        seeds = sorted(self.runs)
+        return _dig(self.config(seeds[0] if seed is None else seed), name) if seeds else None
+
+
+class Conditions:
+    """All complete runs of a study by condition.
+
+    ``settings``: names of what differs besides curiosity and seed. ``notes``: one line for everything odd.
+    """
+
+    def __init__(self, study: Study, labels: Mapping[str, str] | None = None):
+        self.study, self.notes = study, []
+        self.configs = {run: _config(study, run) for run in study.complete}
+        self.configs = {run: config for run, config in self.configs.items() if config is not None}
+        for run in sorted(set(study.complete) - set(self.configs)):
+            self.notes.append(f"run {run} is left out: its config.yaml is missing or unreadable")
+        declared = [name for name in study.swept if name not in ("seed", "curiosity")]
+        self.declared = list(declared)
+        self.settings = declared + self._undeclared(declared)
+        self.labels = {str(k): str(v) for c in self.configs.values() for k, v in (c.get("labels") or {}).items()}
+        for value, name in (labels or {}).items():
+            self.labels.setdefault(str(value), str(name))
+        self._by_key = self._sort_runs()
+        self._indices: dict[str, dict[str, Any]] = {}
+
+    # which runs belong together
+
+    def _undeclared(self, declared: list[str]) -> list[str]:
+        """Settings that differ between runs of the same swept settings; each gets a note."""
+        flat = {run: _flatten(config) for run, config in self.configs.items()}
+        groups: dict[tuple, list[str]] = {}
+        for run in self.configs:
+            groups.setdefault(tuple(_text(self._value(run, name)) for name in declared), []).append(run)
+        found: dict[str, dict[str, int]] = {}
+        for runs in groups.values():
+            for name in sorted({name for run in runs for name in flat[run]}):
+                counts: dict[str, int] = {}
+                for run in runs:
+                    value = _text(flat[run].get(name))
+                    counts[value] = counts.get(value, 0) + 1
+                if len(counts) > 1 and not (name.startswith("curiosity.") or name.partition(".")[0] in IGNORED):
+                    total = found.setdefault(name, {})
+                    for value, count in counts.items():
+                        total[value] = total.get(value, 0) + count
+        for name, counts in found.items():
+            parts = " and ".join(f"{value} in {n} run{'s' * (n > 1)}" for value, n in sorted(counts.items()))
+            self.notes.append(f"runs of different studies are mixed here: {name} is {parts}; shown as conditions apart")
+        return sorted(found)
+
+    def _value(self, run: str, name: str) -> Any:
+        swept = self.study.about(run).get("swept") or {}
+        if name in swept:
+            return swept[name]
+        value = _dig(self.configs[run], name)
+        return value.get("name") if isinstance(value, Mapping) else value
+
+    def _sort_runs(self) -> dict[tuple, dict[int, str]]:
+        keys: dict[tuple, dict[int, str]] = {}
+        for run in sorted(self.configs):
+            about = self.study.about(run)
+            key = (str(about.get("curiosity")), *(_text(self._value(run, name)) for name in self.settings))
+            seeds = keys.setdefault(key, {})
+            seed = about.get("seed")
+            if seed in seeds:
+                self.notes.append(f"run {run} is left out: seed {seed} of its condition is there already "
+                                  f"({seeds[seed]})")
+            else:
+                seeds[seed] = run
+        return keys
+
+    # views
+
+    @cached_property
+    def curiosities(self) -> list[str]:
+        """Values of curiosity, those with a label first (CR before NCR as labelled), then by name."""
+        found = sorted({key[0] for key in self._by_key})
+        order = list(self.labels)
+        return sorted(found, key=lambda c: (order.index(c) if c in order else len(order), c))
+
+    @cached_property
+    def strata(self) -> list[tuple[str, ...]]:
+        """Combinations of ``settings`` (as texts) that have runs, in a stable order; [()] if nothing else differs."""
+        found = {key[1:] for key in self._by_key}
+        return sorted(found, key=lambda stratum: [_natural(value) for value in stratum])
+
+    def runs(self, curiosity: str, stratum: tuple[str, ...] = ()) -> Runs:
+        """The runs of a condition; empty if there are none."""
+        where = {"curiosity": curiosity, **dict(zip(self.settings, stratum, strict=False))}
+        return Runs(self, where, self._by_key.get((curiosity, *stratum), {}))
+
+    def matching(self, where: Mapping[str, Any], stratum: Mapping[str, str]) -> tuple[Runs, str]:
+        """Runs with these settings (a role of a claims file), within a stratum; a note if seeds were found twice."""
+        found, twice = {}, 0
+        for key, seeds in sorted(self._by_key.items()):
+            has = {"curiosity": key[0], **dict(zip(self.settings, key[1:], strict=True))}
+            if all(has.get(name) == value for name, value in stratum.items()) and \
+                    all(self._fits(has, seeds, name, value) for name, value in where.items()):
+                twice += len(set(found) & set(seeds))
+                found = {**seeds, **found}
+        return Runs(self, where, found), f"{twice} seeds fit twice; the first was taken" if twice else ""
+
+    def _fits(self, has: Mapping[str, str], seeds: Mapping[int, str], name: str, value: Any) -> bool:
+        if name in has:
+            return has[name] == _text(value)
+        run = next(iter(seeds.values()))
+        return _text(self._value(run, name)) == _text(value)
+
+    def name(self, curiosity: str) -> str:
+        """What a curiosity is called in figures."""
+        return self.labels.get(curiosity, curiosity)
+
+    def stratum_name(self, stratum: tuple[str, ...]) -> str:
+        return ", ".join(f"{name}={value}" for name, value in zip(self.settings, stratum, strict=True))
+
+    def rows(self, table: str, runs: Mapping[int, str], equal: Mapping[str, Any]) -> pd.DataFrame:
+        """Rows of runs (seed -> run) in a table."""
+        frame = self.frame(table)
+        indices = self._indices.get(table)
+        if indices is None:
+            indices = self._indices[table] = frame.groupby("run", observed=True).indices if len(frame) else {}
+        parts, seeds = [], []
+        for seed, run in sorted(runs.items()):
+            if run in indices:
+                parts.append(indices[run])
+                seeds += [seed] * len(indices[run])
+        import numpy as np
+        chosen = frame.iloc[np.concatenate(parts)] if parts else frame.iloc[:0]
+        chosen = chosen.assign(seed=seeds)
+        for column, value in equal.items():
+            chosen = chosen[chosen[column] == value]
+        return chosen
+
+    def frame(self, table: str) -> pd.DataFrame:
+        """A whole table; of ``cycles`` only the last recorded episode of each run is read."""
+        return self.study.last_cycles if table == "cycles" else getattr(self.study, table)
+
+
+def _config(study: Study, run: str) -> dict | None:
+    import yaml
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        content = yaml.load((study.path / run / "config.yaml").read_text(), loader)  # noqa: S506  a safe loader
+    except (OSError, ValueError, yaml.YAMLError):
+        return None
+    return content if isinstance(content, dict) else None
+
+
+def _dig(node: Any, name: str) -> Any:
+    for part in name.split("."):
+        node = node.get(part) if isinstance(node, Mapping) else None
+    return node
+
+
+def _flatten(node: Mapping, prefix: str = "") -> dict[str, Any]:
+    flat = {}
+    for name, value in node.items():
+        if isinstance(value, Mapping) and value:
+            flat.update(_flatten(value, f"{prefix}{name}."))
+        else:
+            flat[f"{prefix}{name}"] = value
+    return flat
+
+
+def _text(value: Any) -> str:
+    """A setting's value as one text, so that values of any type can be compared, sorted and shown."""
+    if isinstance(value, float) and value == int(value) and abs(value) < 1e15:
+        value = int(value)
+    return value if isinstance(value, str) else json.dumps(value, default=str)
+
+
+def _natural(value: str) -> tuple:
+    """Numbers by size before words by letter."""
+    try:
+        return (0, float(value), value)
+    except ValueError:
+        return (1, 0.0, value)

@@ -1,0 +1,36 @@
+"""What a study found: figures, verdicts on the paper's claims, and one page a person can read.
+
+    python -m attnlab.report outputs/cr_vs_ncr
+
+This module is light; pandas, scipy and seaborn are imported when something is drawn.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from attnlab.claims import DEFAULT
+
+
+def build_report(study_path: str | Path, out: str | Path | None = None, claims: str | None = None,
+                 baselines: str | Path | None = None, quiet: bool = False) -> Path:
+    """Write the report of a study and return the path of its page, ``<out>/index.html``.
+
+    ``out``: a folder, ``<study>/report`` if left out. ``claims``: name or path of a claims file (dinocera2014).
+    ``baselines``: a second study whose runs are drawn in the attention economics. ``quiet``: print nothing.
+    Raises ConfigError if there is no such study, or no such or a wrong claims file.
+    """
+    from attnlab.report.build import build
+    return build(study_path, out, claims or DEFAULT, baselines, quiet)
+
+
+def survival_picture(study_path: str | Path) -> Path:
+    """Draw survival against episodes (mean over seeds, 95 % band, a line a condition) to ``<study>/survival.png``."""
+    from attnlab.conditions import Conditions
+    from attnlab.report.curves import survival
+    from attnlab.report.style import drawing, save_png
+    from attnlab.results.load import load
+    study = load(study_path)
+    with drawing():
+        figure = survival(Conditions(study))
+        return save_png(figure, study.path / "survival.png")

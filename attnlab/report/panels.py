@@ -1,0 +1,136 @@
+"""How conditions are spread over panels and lines: one rule for all figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from attnlab.conditions import Conditions, Runs
+from attnlab.report.style import WIDTH_IN, colours, cut, dashes
+from attnlab.stats import bootstrap_band
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MOST_PANELS = 12
+
+
+@dataclass
+class Line:
+    """A condition as it is drawn: its name in the legend, colour and dash."""
+    name: str
+    runs: Runs
+    colour: str
+    dash: object
+
+
+@dataclass
+class Panel:
+    """A group of lines that share axes; ``title`` is empty if there is only one panel."""
+    title: str
+    lines: list[Line]
+
+
+def panels(conditions: Conditions) -> list[Panel]:
+    """Lines are the curiosities, panels the other settings. With one curiosity, the first setting makes the lines."""
+    curiosities = conditions.curiosities
+    if len(curiosities) > 1 or not conditions.settings:
+        colour, dash = colours(curiosities), dashes(curiosities)
+        found = []
+        for stratum in conditions.strata:
+            lines = [Line(cut(conditions.name(c), 40), conditions.runs(c, stratum), colour[c], dash[c])
+                     for c in curiosities]
+            found.append(Panel(conditions.stratum_name(stratum), [line for line in lines if line.runs.runs]))
+        return found
+    only = curiosities[0]
+    values = list(dict.fromkeys(stratum[0] for stratum in conditions.strata))
+    colour, dash = colours([f"{v} " for v in values]), dashes(values)
+    groups: dict[tuple, list[Line]] = {}
+    for stratum in conditions.strata:
+        value = stratum[0]
+        groups.setdefault(stratum[1:], []).append(
+            Line(cut(conditions.labels.get(value, value), 40), conditions.runs(only, stratum), colour[f"{value} "],
+                 dash[value]))
+    names = conditions.settings[1:]
+    return [Panel(", ".join(f"{n}={v}" for n, v in zip(names, rest, strict=True)), lines)
+            for rest, lines in groups.items()]
+
+
+def title_of_lines(conditions: Conditions) -> str:
+    """What the lines of a figure differ by."""
+    return "" if len(conditions.curiosities) > 1 or not conditions.settings else cut(conditions.settings[0], 40)
+
+
+def shown(conditions: Conditions) -> tuple[list[Panel], str]:
+    """The panels that are drawn (not more than 12) and a note if there are more."""
+    found = panels(conditions)
+    note = f"The first {MOST_PANELS} of {len(found)} combinations of settings are drawn." \
+        if len(found) > MOST_PANELS else ""
+    return found[:MOST_PANELS], note
+
+
+def grid(count: int, height_in: float = 3.2, columns: int = 3, **sharing) -> tuple[Figure, list[Axes]]:
+    """A figure of page width with ``count`` panels, and its axes in reading order."""
+    import matplotlib.pyplot as plt
+    columns = max(1, min(columns, count))
+    rows = -(-count // columns)
+    height = height_in if rows == 1 else min(height_in, 2.7) * rows
+    figure, axes = plt.subplots(rows, columns, figsize=(WIDTH_IN, height), squeeze=False, **sharing)
+    flat = list(axes.flat)
+    for spare in flat[count:]:
+        spare.set_visible(False)
+    return figure, flat[:count]
+
+
+def legend(figure: Figure, axes: list[Axes], title: str = "") -> None:
+    """One legend for all panels, above them."""
+    entries: dict[str, object] = {}
+    for ax in axes:
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            entries.setdefault(label, handle)
+    if entries:
+        figure.legend(list(entries.values()), list(entries), loc="outside upper right", ncol=min(5, len(entries)),
+                      title=title or None, columnspacing=1.6, handlelength=2.4)
+
+
+def band(ax: Axes, x: np.ndarray, values: np.ndarray, line: Line, label: bool = True, **style) -> None:
+    """Mean line and 95 % band over seeds of ``values`` (seeds, x)."""
+    centre, low, high = bootstrap_band(values)
+    ax.plot(x, centre, color=line.colour, ls=line.dash, label=line.name if label else None, **style)
+    if np.isfinite(low).any():
+        ax.fill_between(x, low, high, color=line.colour, alpha=0.18, lw=0)
+
+
+def by_episode(runs: Runs, table: str, column: str | Callable, block: int, phase: str = "train",
+               **equal) -> tuple[np.ndarray, np.ndarray]:
+    """Block means: (episode at each block's end, values of shape (seeds, blocks)); nan where a seed has no episodes."""
+    rows = runs.rows(table, phase=phase, **equal)
+    if not len(rows):
+        return np.zeros(0), np.zeros((0, 0))
+    value = column(rows) if callable(column) else rows[column]
+    episode = rows["episode"].to_numpy()
+    blocks = -(-(int(episode.max()) + 1) // block)
+    seeds = sorted(runs.runs)
+    place = np.array([seeds.index(seed) for seed in seeds])
+    row = place[np.searchsorted(seeds, rows["seed"].to_numpy())]
+    cell = row * blocks + episode // block
+    y = value.to_numpy(float)
+    good = ~np.isnan(y)
+    total = np.bincount(cell[good], y[good], len(seeds) * blocks)
+    count = np.bincount(cell[good], minlength=len(seeds) * blocks)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        means = (total / count).reshape(len(seeds), blocks)
+    ends = np.minimum((np.arange(blocks) + 1) * block, int(episode.max()) + 1)
+    return ends, means
+
+
+def block_of(conditions: Conditions, wanted: int, phase: str = "train") -> int:
+    """The paper's block of episodes, or a smaller one if that would leave fewer than five points."""
+    frame = conditions.frame("episodes")
+    episodes = frame.loc[frame["phase"] == phase, "episode"] if len(frame) else []
+    most = int(episodes.max()) + 1 if len(episodes) else 0
+    return wanted if most >= 5 * wanted or not most else max(1, most // 8)

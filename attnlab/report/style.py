@@ -1,0 +1,105 @@
+"""One look for all figures: colours that everybody can tell apart, type that is readable at page width, and files that
+are the same bytes for the same data."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from attnlab.conditions import Conditions
+from attnlab.results.files import write_bytes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+# Okabe & Ito's palette, without its yellow (too light for lines). The paper draws CR red and NCR blue.
+VERMILLION, BLUE = "#d55e00", "#0072b2"
+OTHERS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#882255", "#999933", "#44aa99", "#332288", "#aa4499")
+DASHES = ("-", (0, (5, 1.6)), (0, (1.5, 1.2)), (0, (6, 1.4, 1.5, 1.4)))
+ROLE_COLOURS = {"litman": VERMILLION, "none": BLUE}
+WIDTH_IN = 8.6
+DPI = 110
+INK, GREY = "#222222", "#767676"
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Settings under which every figure is drawn: no display, fixed identifiers, our type sizes. Closes all after."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import seaborn as sns
+    looks = {"svg.hashsalt": "attnlab", "svg.fonttype": "path", "font.family": "DejaVu Sans", "font.size": 9.5,
+             "axes.titlesize": 10.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 9.5,
+             "axes.edgecolor": "#999999", "axes.linewidth": 0.8, "axes.spines.top": False, "axes.spines.right": False,
+             "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "legend.frameon": False,
+             "legend.fontsize": 9, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "grid.color": "#e6e6e6",
+             "grid.linewidth": 0.7, "lines.linewidth": 1.8, "figure.dpi": DPI, "figure.constrained_layout.use": True,
+             "axes.formatter.useoffset": False, "text.parse_math": False}
+    with matplotlib.rc_context(), sns.axes_style("whitegrid", rc=looks):
+        matplotlib.rcParams.update(looks)
+        try:
+            yield
+        finally:
+            plt.close("all")
+
+
+def colours(names: Sequence[str]) -> dict[str, str]:
+    """A colour for each value: those of the paper's two robots are always theirs."""
+    free = OTHERS
+    chosen = {}
+    for name in names:
+        chosen[name] = ROLE_COLOURS.get(name) or free[len([n for n in chosen if n not in ROLE_COLOURS]) % len(free)]
+    return chosen
+
+
+def dashes(names: Sequence[str]) -> dict[str, object]:
+    """A line style for each value, so that no two lines differ by colour alone when there are many."""
+    return {name: DASHES[i % len(DASHES)] for i, name in enumerate(names)}
+
+
+def png_bytes(figure: Figure) -> bytes:
+    """The figure as PNG without dates or versions in it."""
+    sink = io.BytesIO()
+    figure.savefig(sink, format="png", dpi=DPI, metadata={"Software": None})
+    return sink.getvalue()
+
+
+def svg_bytes(figure: Figure) -> bytes:
+    """The figure as SVG without dates or versions in it."""
+    sink = io.BytesIO()
+    figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None})
+    return sink.getvalue()
+
+
+def save_png(figure: Figure, path: Path) -> Path:
+    write_bytes(path, png_bytes(figure))
+    return path
+
+
+def cut(text: str, most: int = 60) -> str:
+    """A text that fits in a figure."""
+    return text if len(text) <= most else text[:most - 1] + "…"
+
+
+def empty(axes: Axes, why: str) -> None:
+    """Say in the panel why nothing is drawn."""
+    axes.text(0.5, 0.5, why, ha="center", va="center", transform=axes.transAxes, color=GREY, wrap=True)
+    axes.set_xticks([])
+    axes.set_yticks([])
+
+
+def seeds_note(conditions: Conditions) -> str:
+    """What the bands are, for captions and titles."""
+    counts = {len(conditions.runs(c, s).runs) for s in conditions.strata for c in conditions.curiosities} - {0}
+    if not counts:
+        return "no complete runs"
+    least, most = min(counts), max(counts)
+    if most == 1:
+        return "one seed: no band can be drawn"
+    number = f"{most}" if least == most else f"{least} to {most}"
+    return f"bands: 95 % bootstrap intervals over {number} seeds"
