@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import re
 
-from attnlab.errors import ConfigError
+from attnlab.errors import ConfigError, nearest
 
 RANGED = ("seed",)  # settings in which 0-4,7 means 0,1,2,3,4,7
 _ITEM = re.compile(r"(\d+)(?:-(\d+))?\Z")
+FLAGS = ("-m", "--multirun", "-h", "--help", "--version", "-c", "--cfg", "-p", "--package", "--resolve", "-cn",
+         "--config-name", "-cp", "--config-path", "-cd", "--config-dir", "-i", "--info", "--hydra-help", "-sc",
+         "--shell-completion", "-r", "--run")
 MOST_SEEDS = 100_000
 
 
@@ -17,6 +20,8 @@ def normalise(argv: list[str]) -> list[str]:
     flags, overrides, takes_value = [], [], False
     for argument in argv:
         if takes_value or (argument.startswith("-") and "=" not in argument.split("[")[0]) or argument.startswith("--"):
+            if not takes_value and argument.split("=")[0] not in FLAGS:
+                raise ConfigError(argument, "no such flag", nearest(argument, FLAGS))
             flags.append(argument)
             takes_value = argument in ("-p", "--package", "-cp", "--config-path", "-cn", "--config-name", "-cd",
                                        "--config-dir", "-c", "--cfg", "-i", "--info")

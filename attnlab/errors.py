@@ -21,6 +21,6 @@ class ConfigError(Exception):
 def nearest(name: str, known: Iterable[str]) -> str:
     """A hint with the nearest right name, then all of them."""
     names = sorted(known)
-    close = get_close_matches(str(name), names, n=1, cutoff=0.5)
+    close = get_close_matches(str(name), names, n=1, cutoff=0.4)
     hint = f"Did you mean '{close[0]}'? " if close else ""
     return hint + f"Known: {', '.join(names)}"

@@ -34,7 +34,7 @@ def explain(cause: BaseException, arguments: Sequence[str]) -> ConfigError | Non
 
 
 def _missing_option(text: str, arguments: Sequence[str]) -> ConfigError | None:
-    match = re.search(r"Could not find '([\w./-]+)/([^/']+)'", text)
+    match = re.search(r"Could not (?:find|load) '([\w./-]+)/([^/']+)'", text)
     if not match:
         return None
     group, name = match[1], match[2]
@@ -77,12 +77,19 @@ def _nearest_key(key: str) -> ConfigError:
 
 
 def _grammar(text: str, arguments: Sequence[str]) -> ConfigError | None:
-    match = re.search(r"Error parsing override '([^']*)'", text)
-    if not match:
+    if not re.search(r"mismatched input|extraneous input|no viable alternative|token recognition|missing EQUAL", text):
         return None
-    detail = text.splitlines()[1].strip() if len(text.splitlines()) > 1 else "cannot be read"
-    return ConfigError(match[1], f"cannot be read ({detail})", "Write setting=value; quote values with special "
-                       "characters: 'study=\"my study\"'")
+    from hydra.core.override_parser.overrides_parser import OverridesParser
+    from hydra.errors import HydraException
+    parser = OverridesParser.create()
+    for argument in arguments:
+        try:
+            if not argument.startswith("-"):
+                parser.parse_overrides([argument])
+        except HydraException as cause:
+            return ConfigError(argument, f"cannot be read ({str(cause).splitlines()[0]})",
+                               "Write setting=value, and quote special characters: 'study=\"my study\"'")
+    return None
 
 
 def options(group: str) -> list[str]:

@@ -28,7 +28,7 @@ from attnlab.paths import plugins_dir
 
 GROUPS = {  # folder of conf/ -> package of attnlab that holds the built-in parts
     "simulator": "simulators", "world": "worlds", "behaviours": "behaviours", "needs": "needs", "fusion": "fusion",
-    "curiosity": "curiosity", "learner": "learners", "exploration": "exploration",
+    "curiosity": "curiosity", "learner": "learners", "exploration": "exploration", "measure": "measures",
 }
 ENTRY_POINTS = "attnlab.plugins"
 
@@ -128,8 +128,13 @@ def build_params(group: str, node: Mapping[str, Any], where: str) -> tuple[Spec,
 
 def make(group: str, node: Mapping[str, Any], context: Any, where: str = "") -> Any:
     """Construct the part that a config node names; its class is called with (params, context)."""
-    spec, params = build_params(group, node, where or group)
-    part = spec.cls(params, context)
+    where = where or group
+    spec, params = build_params(group, node, where)
+    try:
+        part = spec.cls(params, context)
+    except ConfigError as error:
+        inner = error.setting if error.setting.startswith(where) else f"{where}.{error.setting}"
+        raise ConfigError(inner, error.problem, error.hint) from None
     part.name = node["name"]
     return part
 

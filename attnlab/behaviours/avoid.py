@@ -24,7 +24,7 @@ class Avoid(Behaviour):
 
     @dataclass
     class Params:
-        turn_rad_s: float = setting(0.8, "theta_max: turn of one sonar of weight 1", unit="rad/s", above=0)
+        gain_rad_s: float = setting(0.8, "theta_max: turn of one sonar of weight 1", unit="rad/s", above=0)
         active_margin_m: float = setting(0.3, "a sonar is active when it hears something nearer to the centre than "
                                          "this beyond reading.stop_distance_m", unit="m", low=0)
         blocked_margin_m: float = setting(0.2, "the way is blocked when one of the four foremost sonars hears something "
@@ -38,7 +38,7 @@ class Avoid(Behaviour):
         self.sigma_low = r.avoid_sigma_min_m if r.percept_domain == "min_to_max" else 0.0
         # An echo on the left (positive angle) turns the robot to the right.
         half = list(params.weights)
-        self._turns = [(-1.0 if SONARS[i][2] > 0 else 1.0) * weight * params.turn_rad_s
+        self._turns = [(-1.0 if SONARS[i][2] > 0 else 1.0) * weight * params.gain_rad_s
                        for i, weight in zip(FRONT, half + half[::-1], strict=True)]
         self._active_m = r.stop_m + params.active_margin_m
         self._blocked_m = r.stop_m + params.blocked_margin_m

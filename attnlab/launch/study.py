@@ -12,10 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from attnlab.claims import claims_path
 from attnlab.errors import ConfigError
 from attnlab.experiment import NOT_IN_KEY, Experiment
+from attnlab.launch.settings import LocalCluster
 from attnlab.results.load import state_of
 from attnlab.results.schema import row_bytes
+from attnlab.settings import build
 
 
 @dataclass
@@ -48,6 +51,10 @@ def run_key(config: Mapping[str, Any]) -> str:
 def make_job(config: dict[str, Any], overrides: Sequence[str], swept: Mapping[str, Any]) -> Job:
     """A checked job. Raises ConfigError for anything that can be known to fail before it starts."""
     settings = Experiment(config).settings
+    if settings.cluster.get("name") == "local":
+        build(LocalCluster, {k: v for k, v in settings.cluster.items() if k != "name"}, "cluster")
+    if settings.claims:
+        claims_path(settings.claims)
     names = [_label(config, swept[key], key) for key in sorted(swept)] or [config["curiosity"]["name"]]
     condition = " ".join(str(settings.labels.get(name, name)) for name in names)
     stem = re.sub(r"[^A-Za-z0-9_.+-]+", "_", "_".join(names)).strip("._")[:80]
@@ -85,7 +92,7 @@ def check_place(jobs: Sequence[Job]) -> None:
     behaviours = len(largest.config["behaviours"])
     a_row = row_bytes("episodes", behaviours) + row_bytes("behaviours", behaviours)
     disk, memory = sum(job.episodes for job in jobs) * a_row, largest.episodes * a_row * 6
-    for need, have, what in ((disk, free, f"disk, {folder.anchor or '.'} has"), (memory, _memory(), "memory, there are")):
+    for need, have, what in ((disk, free, "disk, free are"), (memory, _memory(), "memory, there are")):
         if need > have:
             setting = "train_episodes" if largest.config["train_episodes"] >= largest.config["validation_episodes"] \
                 else "validation_episodes"
