@@ -1,0 +1,49 @@
+"""Q(lambda): what was done a while ago learns too."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from attnlab.learners.q_learning import QLearning, TabularParams
+from attnlab.registry import register
+from attnlab.settings import setting
+
+
+@register("learner", "q_lambda")
+class QLambda(QLearning):
+    """Watkins's Q(lambda) (Watkins 1989; Sutton & Barto 1998, 7.6): with delta = R + gamma max Q(s') - Q(s,a), every
+    Q(x,b) grows by alpha delta e(x,b); the trace e(s,a) is 1 when visited (replacing), fades by gamma lambda, and all
+    are cut when the next action is not a greedy one, and at the start of an episode. Draws nothing at random."""
+    on_policy = True
+
+    @dataclass
+    class Params(TabularParams):
+        lam: float = setting(0.8, "lambda: fading of the traces", low=0, high=1)
+        least: float = setting(1e-3, "traces below this are dropped", above=0, high=1)
+
+    def __init__(self, params, context):
+        super().__init__(params, context)
+        self._traces: dict[tuple[int, int], float] = {}
+
+    def start(self) -> None:
+        self._traces = {}
+
+    def _spread(self, state: int, action: int, delta: float) -> None:
+        self._traces[state, action] = 1.0
+        step = self.params.alpha * delta
+        for (x, b), trace in self._traces.items():
+            self.q[x][b] += step * trace
+        self.visits[state][action] += 1
+
+    def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
+        following, discount = self.q[next_state], self._discount[cycles]
+        best = max(following)
+        greedy = following[next_action] == best
+        self._spread(state, action, reward + discount * best - self.q[state][action])
+        fade = discount * self.params.lam
+        self._traces = {key: fade * trace for key, trace in self._traces.items()
+                        if fade * trace >= self.params.least} if greedy else {}
+
+    def terminal(self, state: int, action: int, reward: float) -> None:
+        self._spread(state, action, reward - self.q[state][action])
+        self._traces = {}

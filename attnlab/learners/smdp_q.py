@@ -1,0 +1,17 @@
+"""Q-learning that knows how long each period was."""
+
+from __future__ import annotations
+
+from attnlab.learners.q_learning import QLearning, TabularParams
+from attnlab.registry import register
+
+
+@register("learner", "smdp_q")
+class SmdpQ(QLearning):
+    """Semi-Markov Q-learning (Bradtke & Duff 1995, NIPS 7): eq (2) with gamma^p for a period of p cycles, so that gamma
+    is a discount a cycle and a long period is a long time. The same as ``q_learning`` under ``reading.q_update=smdp``,
+    whatever the reading. Draws nothing at random."""
+
+    def __init__(self, params: TabularParams, context):
+        super().__init__(params, context)
+        self._discount = [params.gamma ** cycles for cycles in range(max(context.periods) + 1)]
