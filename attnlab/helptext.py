@@ -29,7 +29,8 @@ The composed config:        python -m attnlab --cfg job
 def help_text() -> str:
     """Commands, then the choices of each group, then the settings."""
     lines = [TEXT, "Choices (group=option):"]
-    for group in ("experiment", *registry.GROUPS, "reading", "cluster"):
+    groups = [group for group in registry.GROUPS if group in RunSettings.__dataclass_fields__]
+    for group in ("experiment", *groups, "reading", "cluster"):
         names = options(group)
         if names:
             lines += textwrap.wrap(", ".join(names), 100, initial_indent=f"  {group:13}", subsequent_indent=" " * 15)

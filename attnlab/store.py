@@ -27,6 +27,8 @@ def store_options() -> None:
                 provider="attnlab")
     store.store(group="cluster", name="local", node={"name": "local", **defaults_of(LocalCluster)}, provider="attnlab")
     for (group, _), spec in registry.parts.items():
+        if group not in RunSettings.__dataclass_fields__:
+            continue  # measures, say: parts of a report, not of a run
         for option, node in spec.nodes().items():
             package = f"behaviours.{option}" if group == "behaviours" else None
             store.store(group=group, name=option, node=node, package=package, provider=spec.origin)
