@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from attnlab.reading import Reading
+    from attnlab.worlds.base import Layout
 
 IGNORED = ("seed", "study", "outputs", "fresh", "picture", "report", "labels", "cluster", "claims", "experiment")
 
@@ -71,6 +72,7 @@ class Conditions:
             self.labels.setdefault(str(value), str(name))
         self._by_key = self._sort_runs()
         self._indices: dict[str, dict[str, Any]] = {}
+        self._layouts: dict[str, Layout | None] = {}
 
     # which runs belong together
 
@@ -178,6 +180,20 @@ class Conditions:
         for column, value in equal.items():
             chosen = chosen[chosen[column] == value]
         return chosen
+
+    def layout(self, run: str) -> Layout | None:
+        """The world of a run, built again from its config and seed; None if that world's plugin is not here."""
+        from attnlab import registry
+        from attnlab.errors import ConfigError
+        node, seed = self.configs[run].get("world") or {}, self.configs[run].get("seed", 0)
+        key = json.dumps([node, seed if node.get("part") != "layout" else 0], sort_keys=True, default=str)
+        if key not in self._layouts:
+            registry.load_all()
+            try:
+                self._layouts[key] = registry.make("world", node, None).build(seed)
+            except (ConfigError, KeyError):
+                self._layouts[key] = None
+        return self._layouts[key]
 
     def frame(self, table: str) -> pd.DataFrame:
         """A whole table; of ``cycles`` only the last recorded episode of each run is read."""

@@ -1,0 +1,156 @@
+"""Claims files: read, checked, typed. docs/claims.md tells how to write one."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from attnlab import registry
+from attnlab.claims import claims_path
+from attnlab.errors import ConfigError, nearest
+from attnlab.measures.base import Measure
+from attnlab.settings import build, setting
+
+ROLES = ("treatment", "control")
+TESTS = ("paired", "level", "not_lower", "permutation")
+DIRECTIONS = ("higher", "lower", "at_least", "at_most", "about")
+
+
+@dataclass
+class Rules:
+    confidence: float = setting(0.95, "of all intervals", above=0.5, high=0.999)
+    resamples: int = setting(4000, "bootstrap samples", low=100, high=1_000_000)
+    least_seeds: int = setting(3, "fewer seeds make a claim untestable", low=2)
+    seed: int = setting(0, "of bootstrap and permutations", low=0)
+
+
+@dataclass
+class Role:
+    label: str = setting("", "what it is called")
+    where: dict = setting({}, "settings of its runs, e.g. {curiosity: litman}")
+
+
+@dataclass
+class Part:
+    """One comparison. All numbers in ``unit``."""
+    measure: Any = setting(None, "{name: ..., and its parameters}")
+    test: str = setting("paired", "paired: treatment - control by seed; level: one role against reference; not_lower: "
+                        "paired, may be lower by margin; permutation: levels exchanged", choices=TESTS)
+    direction: str = setting("about", "claimed side of the reference", choices=DIRECTIONS)
+    role: str = setting("treatment", "whose level", choices=ROLES)
+    reference: float = setting(0.0, "what the direction is against")
+    number: float | None = setting(None, "what the paper found")
+    tolerance: float | None = setting(None, "how far from the number counts as the same", low=0)
+    margin: float | None = setting(None, "of not_lower", low=0)
+    unit: str | None = setting(None, "unit of the measure; must be the measure's own")
+    counts: bool = setting(True, "false: shown, but no part of the verdict")
+    note: str = setting("", "shown beside it")
+
+    def __post_init__(self):
+        if self.measure is None:
+            raise ConfigError("measure", "is missing", "Write measure: {name: survival}")
+        if self.unit is None:
+            raise ConfigError("unit", "is missing", "Name the measure's unit, so that nobody misreads a number")
+        if (self.number is None) != (self.tolerance is None):
+            raise ConfigError("tolerance" if self.tolerance is None else "number",
+                              "is missing", "number and tolerance belong together")
+        if self.test in ("paired", "level") and self.direction == "about" and self.number is None:
+            raise ConfigError("direction", "is missing", f"One of {', '.join(DIRECTIONS[:4])}, or a number to be near")
+        if self.test == "not_lower" and self.margin is None:
+            raise ConfigError("margin", "is missing", "How much lower still counts as not lower?")
+
+
+@dataclass
+class Claim:
+    title: str = setting("", "in a few words")
+    where: str = setting("", "where in the paper")
+    says: str = setting("", "what it says there")
+    parts: list[Part] = setting([], "comparisons; all that count must hold")
+
+    def __post_init__(self):
+        for name in ("title", "where", "says"):
+            if not getattr(self, name).strip():
+                raise ConfigError(name, "is missing")
+        if not any(part.counts for part in self.parts):
+            raise ConfigError("parts", "has no comparison that counts")
+
+
+@dataclass
+class _File:
+    title: str = setting("", "of the paper or the study")
+    source: str = setting("", "where it was published")
+    roles: dict = setting({}, "treatment and control")
+    rules: Rules = setting(Rules(), "how verdicts are reached")
+    claims: dict = setting({}, "by id")
+
+
+@dataclass
+class Claims:
+    """A checked claims file. ``measures[id][i]`` is the measure of part i of claim id."""
+    path: Path
+    sha256: str
+    title: str
+    source: str
+    roles: dict[str, Role]
+    rules: Rules
+    claims: dict[str, Claim]
+    measures: dict[str, list[Measure]]
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """Names of curiosities, as far as the roles are told apart by them."""
+        return {str(r.where["curiosity"]): r.label for r in self.roles.values() if set(r.where) == {"curiosity"}}
+
+
+def load_claims(name: str) -> Claims:
+    """The claims file of this name or path. Raises ConfigError naming file, claim and field."""
+    import yaml
+    path = claims_path(name)
+    data = path.read_bytes()
+    try:
+        content = yaml.safe_load(data.decode())
+    except (yaml.YAMLError, UnicodeDecodeError) as cause:
+        raise ConfigError(str(path.name), f"is no readable YAML: {cause}") from None
+    where = path.name
+    file = build(_File, content, where)
+    if not file.claims:
+        raise ConfigError(f"{where}.claims", "there are none")
+    roles = _roles(file.roles, where)
+    registry.load_all()
+    claims, measures = {}, {}
+    for key, node in file.claims.items():
+        place = f"{where}.{key}"
+        claims[str(key)] = claim = build(Claim, node, place)
+        measures[str(key)] = [_measure(part, f"{place}.parts[{i}]") for i, part in enumerate(claim.parts)]
+        used = {r for part in claim.parts for r in (ROLES if part.test in ("paired", "not_lower") else (part.role,))}
+        for role in sorted(used - set(roles)):
+            raise ConfigError(f"{place}", f"compares the role '{role}', which roles does not name")
+    return Claims(path, hashlib.sha256(data).hexdigest(), file.title or path.stem, file.source, roles, file.rules,
+                  claims, measures)
+
+
+def _roles(node: dict, where: str) -> dict[str, Role]:
+    for name in node:
+        if name not in ROLES:
+            raise ConfigError(f"{where}.roles.{name}", "no such role", nearest(str(name), ROLES))
+    roles = {name: build(Role, value, f"{where}.roles.{name}") for name, value in node.items()}
+    for name, role in roles.items():
+        if not role.where:
+            raise ConfigError(f"{where}.roles.{name}.where", "is missing", "Write where: {curiosity: litman}")
+        role.label = role.label or name
+    if "treatment" not in roles:
+        raise ConfigError(f"{where}.roles", "names no treatment")
+    return roles
+
+
+def _measure(part: Part, where: str) -> Measure:
+    node = {"name": part.measure} if isinstance(part.measure, str) else part.measure
+    measure = registry.make("measure", node, None, f"{where}.measure")
+    if measure.unit != part.unit:
+        raise ConfigError(f"{where}.unit", f"is '{part.unit}', but the measure '{node['name']}' is in "
+                          f"'{measure.unit}'")
+    if part.test == "permutation" and not hasattr(measure, "null"):
+        raise ConfigError(f"{where}.test", f"the measure '{node['name']}' has no permutation test (no method null)")
+    return measure

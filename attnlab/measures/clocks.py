@@ -1,0 +1,84 @@
+"""How often behaviours are active, and whether at the same time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from attnlab.measures.base import PHASES, Measure
+from attnlab.measures.rewards import BEHAVIOUR, summed
+from attnlab.registry import register
+from attnlab.settings import setting
+
+
+@register("measure", "activations")
+class Activations(Measure):
+    """Activations an episode, mean over episodes; ``minus`` subtracts those of other behaviours."""
+    unit = "activations"
+
+    @dataclass
+    class Params:
+        behaviour: str = setting("all", BEHAVIOUR)
+        minus: str | None = setting(None, "a behaviour, or several joined by +, to subtract")
+        phase: str = setting("validation", "which episodes", choices=PHASES)
+
+    def of(self, runs):
+        p = self.params
+        found = self.means(summed(runs, p.phase, p.behaviour, "activations"), "value")
+        if p.minus:
+            less = self.means(summed(runs, p.phase, p.minus, "activations"), "value")
+            found = {seed: found[seed] - less[seed] for seed in found}
+        return found
+
+
+@register("measure", "activation_saving")
+class ActivationSaving(Measure):
+    """How many activations fewer than one every cycle, in %: 100 (1 - activations / cycles), for each behaviour."""
+    unit = "%"
+
+    @dataclass
+    class Params:
+        behaviour: str = setting("all", BEHAVIOUR)
+        phase: str = setting("validation", "which episodes", choices=PHASES)
+
+    def of(self, runs):
+        p = self.params
+        acts = self.means(summed(runs, p.phase, p.behaviour, "activations"), "value")
+        cycles = self.means(self.episodes(runs, p.phase), "cycles")
+        names = runs.rows("behaviours")["behaviour"].nunique() if p.behaviour == "all" else len(p.behaviour.split("+"))
+        return {seed: 100 * (1 - acts[seed] / (names * cycles[seed])) for seed in acts}
+
+
+@register("measure", "overlap")
+class Overlap(Measure):
+    """(sum - union) / sum of the activations of all behaviours in %: 0 if never two are active in one cycle."""
+    unit = "%"
+
+    @dataclass
+    class Params:
+        phase: str = setting("validation", "which episodes", choices=PHASES)
+
+    def of(self, runs):
+        from attnlab.stats import overlap_ratio
+        acts = self.means(summed(runs, self.params.phase, "all", "activations"), "value")
+        union = self.means(self.episodes(runs, self.params.phase), "active_cycles")
+        return {seed: 100 * overlap_ratio(acts[seed], union[seed]) for seed in acts}
+
+
+@register("measure", "overlap_excess")
+class OverlapExcess(Measure):
+    """Overlap of the last recorded episode less the mean of its random-phase null, in percent points.
+
+    Below 0: behaviours make room for each other; above 0: they fire together more than by chance. Draws the random
+    phases with a fixed seed.
+    """
+    unit = "%"
+
+    def of(self, runs):
+        from attnlab.stats import overlap_null, overlap_ratio
+        found = {}
+        for seed, rows in self.last_cycles(runs).items():
+            columns = [name for name in rows.columns if name.endswith("_active") and rows[name].notna().all()]
+            active = rows[columns].to_numpy(bool)
+            seen = overlap_ratio(int(active.sum()), int(active.any(axis=1).sum()))
+            found[seed] = 100 * (seen - float(overlap_null(active, 200, seed).mean()))
+        return found

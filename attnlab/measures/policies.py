@@ -1,0 +1,141 @@
+"""What was learned: the period that a behaviour grants itself at each percept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from attnlab.errors import ConfigError
+from attnlab.measures.base import CannotMeasure, Measure
+from attnlab.registry import register
+from attnlab.settings import setting
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+def greedy(runs, behaviour: str, level: str = "any") -> dict[int, dict[int, int]]:
+    """Seed -> percept -> learned period (mc). Percepts that a seed never visited are left out.
+
+    The state holds the last period too, so each percept has a row a period: every row votes for its best action with
+    its visits. ``level``: a curiosity level, or any (all levels vote).
+    """
+    rows = runs.rows("policy", behaviour=behaviour)
+    if not len(rows):
+        raise CannotMeasure(f"there is no table of a behaviour {behaviour}")
+    if level != "any":
+        known = list(dict.fromkeys(rows["curiosity_level"]))
+        rows = rows[rows["curiosity_level"] == level]
+        if not len(rows):
+            raise CannotMeasure(f"there is no curiosity level '{level}' (there are {', '.join(known)})")
+    state = ["seed", "curiosity_level", "period", "percept"]
+    visits = rows.groupby(state, sort=True)["visits"].sum()
+    best = rows.loc[rows.groupby(state, sort=True)["q"].idxmax()].set_index(state)["action"]
+    votes = visits[visits > 0].to_frame("visits").assign(action=best).reset_index()
+    total = votes.groupby(["seed", "percept", "action"])["visits"].sum().reset_index()
+    total = total.sort_values(["seed", "percept", "visits", "action"]).groupby(["seed", "percept"]).last()
+    found: dict[int, dict[int, int]] = {int(seed): {} for seed in runs.runs}
+    for (seed, percept), action in total["action"].items():
+        found[int(seed)][int(percept)] = int(action)
+    return found
+
+
+def in_words(policy: dict[int, int]) -> str:
+    """A learned policy as the paper writes one: "12 in bins 1-4, 1 in bins 5-6"."""
+    runs: list[list[int]] = []
+    for percept in sorted(policy):
+        if runs and policy[percept] == runs[-1][0] and percept == runs[-1][2] + 1:
+            runs[-1][2] = percept
+        else:
+            runs.append([policy[percept], percept, percept])
+    said = [f"{period} in bin {a}" if a == b else f"{period} in bins {a}-{b}" for period, a, b in runs]
+    return ", ".join(said) if said else "never visited"
+
+
+@register("measure", "policy_match")
+class PolicyMatch(Measure):
+    """Share of percept bins (%) in which the learned period is one of those that ``pattern`` names.
+
+    Bins that a seed never visited have no learned period and are left out; a seed with fewer than ``least_bins`` has
+    no value.
+    """
+    unit = "%"
+
+    @dataclass
+    class Params:
+        behaviour: str = setting("drink", "whose table")
+        level: str = setting("any", "curiosity level: none, low, LH, HH, or any")
+        pattern: dict = setting({}, "bins -> period or periods, e.g. {1-4: 12, 5-6: [1, 4]}")
+        least_bins: int = setting(4, "visited bins a seed needs", low=1)
+
+        def __post_init__(self):
+            self.bins = parse_pattern(self.pattern)
+
+    def of(self, runs):
+        found = {}
+        wanted, most = self.params.bins, runs.reading().percept_bins
+        if max(wanted) != most:
+            raise CannotMeasure(f"the pattern speaks of {max(wanted)} bins, the runs have {most}")
+        for seed, policy in greedy(runs, self.params.behaviour, self.params.level).items():
+            known = [percept for percept in wanted if percept in policy]
+            agree = sum(policy[percept] in wanted[percept] for percept in known)
+            found[seed] = 100 * agree / len(known) if len(known) >= self.params.least_bins else float("nan")
+        if all(value != value for value in found.values()):
+            raise CannotMeasure(f"no seed visited {self.params.least_bins} bins of {self.params.behaviour} at level "
+                                f"{self.params.level}")
+        return found
+
+
+def parse_pattern(pattern: dict) -> dict[int, tuple[int, ...]]:
+    """{"1-4": 12, 5: [1, 4]} -> {1: (12,), ..., 5: (1, 4)}. Raises ConfigError."""
+    bins: dict[int, tuple[int, ...]] = {}
+    for key, periods in pattern.items():
+        first, _, last = str(key).partition("-")
+        wanted = tuple(periods) if isinstance(periods, list) else (periods,)
+        if not first.isdigit() or not (last or first).isdigit() or not all(type(p) is int and p > 0 for p in wanted):
+            raise ConfigError("pattern", f"{key!r}: {periods!r} is not bins: period(s)", "Write it as {1-4: 12}")
+        bins.update(dict.fromkeys(range(int(first), int(last or first) + 1), wanted))
+    if not bins:
+        raise ConfigError("pattern", "names no bins", "Write it as {1-4: 12, 5-6: [1, 4]}")
+    return bins
+
+
+@register("measure", "policy_levels")
+class PolicyLevels(Measure):
+    """How much more the learned periods differ between curiosity levels than between seeds of one level (% of cells).
+
+    A cell is a behaviour's percept; distance is the share of cells, visited by both, whose periods differ. For the
+    test ``permutation``: under "levels do not matter" the levels of a seed may be exchanged.
+    """
+    unit = "%"
+
+    @dataclass
+    class Params:
+        levels: list[str] = setting(["low", "LH", "HH"], "curiosity levels to compare")
+
+        def __post_init__(self):
+            if len(set(self.levels)) < 2:
+                raise ConfigError("levels", "needs two different curiosity levels or more")
+
+    def tables(self, runs) -> np.ndarray:
+        """Learned periods of shape (seeds, levels, cells), 0 where never visited."""
+        import numpy as np
+        names = sorted(set(runs.rows("policy")["behaviour"]))
+        bins = runs.reading().percept_bins
+        table = np.zeros((len(runs.runs), len(self.params.levels), len(names) * bins), np.int64)
+        for j, level in enumerate(self.params.levels):
+            for b, name in enumerate(names):
+                for i, (_, policy) in enumerate(sorted(greedy(runs, name, level).items())):
+                    for percept, period in policy.items():
+                        table[i, j, b * bins + percept - 1] = period
+        return table
+
+    def of(self, runs):
+        from attnlab.stats.levels import level_contrast
+        table = self.tables(runs)
+        return dict(zip(sorted(runs.runs), (100 * level_contrast(table)).tolist(), strict=True))
+
+    def null(self, runs, draws: int, seed: int) -> np.ndarray:
+        """Means over seeds of the same number with each seed's levels exchanged at random, shape (draws,)."""
+        from attnlab.stats.levels import level_null
+        return 100 * level_null(self.tables(runs), draws, seed)
