@@ -60,8 +60,8 @@ def test_needs_and_energy():
     assert eq.energy_after_cycle(4600.0, e_u=1.0, e_nb=1.0, nb_act=2, consumed=150.0) == 4747.0
 
 
-@given(st.integers(0, 4600), st.integers(0, 1500), st.integers(0, 1500), st.integers(0, 3), st.booleans(), st.booleans(),
-       st.sampled_from([1.0, 2.0, 3.0]))
+@given(st.integers(0, 4600), st.integers(0, 1500), st.integers(0, 1500), st.integers(0, 3), st.booleans(),
+       st.booleans(), st.sampled_from([1.0, 2.0, 3.0]))
 def test_energy_and_needs_together(energy, hunger, thirst, active, food, water, k):
     """Whatever is eaten, E + H + T changes by -e_u + (2k - e_nb) * nb_act."""
     eaten, drunk = 150.0 * food, 150.0 * water
