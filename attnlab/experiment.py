@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from attnlab import registry
@@ -90,7 +91,13 @@ class Experiment:
             registry.build_params("behaviours", node, f"behaviours.{name}")
         self.simulator_spec = registry.build_params("simulator", s.simulator, "simulator")
         self.validation_spec = self._validation_spec()
+        self.found: dict = {}  # settings of the learner found offline, see Learner.prepare
         self._try_parts()
+
+    def prepare(self, folder: Path | None) -> None:
+        """What a learner does before the run."""
+        spec = registry.get("learner", self.settings.learner, "learner")
+        self.found = spec.cls.prepare(self, folder)
 
     def _layout(self) -> Layout:
         try:
@@ -143,7 +150,7 @@ class Experiment:
                                       f"behaviours.{name}")
             behaviour.name = name
             own_needs += behaviour.needs()
-            learner = registry.make("learner", s.learner, LearnerContext(
+            learner = registry.make("learner", {**s.learner, **self.found}, LearnerContext(
                 r, name, curiosity.levels, s.periods, r.percept_bins, stream(s.seed, "learner", name)))
             attentions.append(Attention(behaviour, s.periods, curiosity, learner, r,
                                         stream(s.seed, "exploration", name)))

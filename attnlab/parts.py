@@ -30,6 +30,11 @@ def short(path: str) -> str:
         return path
 
 
+def options(spec: registry.Spec) -> tuple[str, ...]:
+    """The names under which a part can be chosen: its own and its presets'."""
+    return spec.name, *spec.presets
+
+
 def source(spec: registry.Spec) -> str:
     """``built in``, ``plugin`` or ``package``: which of the three doors a part came through."""
     origin = Path(spec.origin)
@@ -47,7 +52,7 @@ def summary(cls: type, width: int = 100) -> str:
 
 def named_configs() -> dict[tuple[str, str], Path]:
     """Options that exist as a yaml file alone: (group, name) -> file."""
-    taken = {(spec.group, option) for spec in registry.parts.values() for option in spec.nodes()}
+    taken = {(spec.group, option) for spec in registry.parts.values() for option in options(spec)}
     return {(file.parent.name, file.stem): file for group in ("reading", *registry.GROUPS)
             for file in sorted((conf_dir() / group).glob("*.yaml")) if (group, file.stem) not in taken}
 
@@ -62,9 +67,9 @@ def kind_of(hint: typing.Any) -> str:
 def parameters(params: type, prefix: str = "") -> Iterable[str]:
     """A line a parameter: name, type, default, unit, range, meaning; those of a nested dataclass after it."""
     hints = typing.get_type_hints(params)
-    values = params()
     for field in dataclasses.fields(params):
-        meta, value = field.metadata, getattr(values, field.name)
+        made = field.default_factory is not dataclasses.MISSING
+        meta, value = field.metadata, field.default_factory() if made else field.default
         if dataclasses.is_dataclass(value):
             yield f"  {prefix}{field.name}: {meta.get('doc', '')}"
             yield from parameters(type(value), f"{prefix}{field.name}.")
@@ -113,7 +118,7 @@ def find(wanted: str) -> str:
     """The text about every part of this name (``name`` or ``group/name``)."""
     group, _, name = wanted.rpartition("/")
     found = [describe(spec, name) for spec in registry.parts.values()
-             if name in spec.nodes() and group in ("", spec.group)]
+             if name in options(spec) and group in ("", spec.group)]
     found += [describe_config(g, n, file) for (g, n), file in named_configs().items() if n == name and group in ("", g)]
     if wanted in ("inferred", "reading", "reading/inferred"):
         found = [describe_reading()]
@@ -121,7 +126,7 @@ def find(wanted: str) -> str:
         if name in (module, module.rpartition(".")[2]):
             found.append(f"{short(file)} failed to load: {registry.describe(cause)}")
     if not found:
-        names = [option for spec in registry.parts.values() for option in spec.nodes()]
+        names = [option for spec in registry.parts.values() for option in options(spec)]
         raise ConfigError(wanted, "no part is called that", nearest(name, {*names, *(n for _, n in named_configs())}))
     return "\n\n".join(found)
 

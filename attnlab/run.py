@@ -42,13 +42,17 @@ def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, floa
 
 
 def run_experiment(experiment: Experiment, run: str = "run", swept: Mapping[str, Any] | None = None,
-                   progress: Progress | None = None) -> tuple[dict[str, dict[str, list]], int]:
-    """All episodes of a run; (tables as lists by column, machine cycles simulated)."""
+                   progress: Progress | None = None, folder: Path | None = None
+                   ) -> tuple[dict[str, dict[str, list]], int]:
+    """All episodes of a run; (tables as lists by column, machine cycles simulated).
+
+    ``folder``: where a learner that works offline keeps its journal."""
     s = experiment.settings
     recorder = Recorder(run, s.seed, s.curiosity["name"], dict(swept or {}), experiment.layout, s.check_identities)
     done = cycles = 0
     phases = [("train", s.train_episodes), ("validation", s.validation_episodes)]
     last = max(i for i, (_, episodes) in enumerate(phases) if episodes)
+    experiment.prepare(folder)
     simulator = experiment.simulator()
     try:
         agent = experiment.agent(simulator)
@@ -94,7 +98,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     cpu = time.process_time()
     try:
         experiment = Experiment(config)
-        tables, cycles = run_experiment(experiment, info["run"], info["swept"], progress)
+        tables, cycles = run_experiment(experiment, info["run"], info["swept"], progress, folder)
         per_behaviour = {f"{b}_{column}": kind for b in config["behaviours"] for column, kind in PER_BEHAVIOUR.items()}
         for name in TABLES:
             types = {**COLUMNS[name], **(per_behaviour if name == "cycles" else {})}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from random import Random
 
 from attnlab.exploration.base import Exploration
@@ -35,6 +36,12 @@ class Learner(ABC):
     name: str
     learns = True
     on_policy = False  # does update need the next action? Then that is chosen before the update, otherwise after
+
+    @classmethod
+    def prepare(cls, experiment, folder: Path | None) -> dict:
+        """Called once before a run (an :class:`attnlab.experiment.Experiment`) that stores in ``folder`` or nowhere:
+        settings of this learner that were found offline, by default none."""
+        return {}
 
     def __init__(self, params, context: LearnerContext):
         self.params, self.context = params, context

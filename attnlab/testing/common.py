@@ -14,6 +14,8 @@ from attnlab import registry
 from attnlab.settings import build, defaults_of
 from attnlab.testing.build import config
 
+IN_A_RUN = ("simulator", "behaviours", "needs", "fusion", "curiosity", "learner", "exploration")
+
 
 def checks(group: str) -> list[Callable]:
     """Checks of :data:`group` that need nothing special."""
@@ -60,9 +62,8 @@ def checks(group: str) -> list[Callable]:
             random.setstate(saved[0])
             np.random.set_state(saved[1])
 
-    if group == "world":
-        return [documented, typed]
-    return [documented, typed, runs, no_hidden_randomness]
+    alone = [documented, typed]
+    return [*alone, runs, no_hidden_randomness] if group in IN_A_RUN else alone
 
 
 def plain(value: Any) -> bool:

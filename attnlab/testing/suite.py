@@ -18,9 +18,9 @@ CHECKS: dict[str, tuple] = {"curiosity": curiosity.CHECKS, "learner": learner.LE
 
 def checks(group: str) -> dict[str, Check]:
     """The checks of a group by name; each is called with the part's name and settings, and raises if it fails."""
-    if group not in CHECKS:
-        raise ConfigError(group, "no such group", f"Known: {', '.join(CHECKS)}")
-    return {check.__name__: check for check in (*common.checks(group), *CHECKS[group])}
+    if group not in registry.GROUPS:
+        raise ConfigError(group, "no such group", f"Known: {', '.join(registry.GROUPS)}")
+    return {check.__name__: check for check in (*common.checks(group), *CHECKS.get(group, ()))}
 
 
 def conformance(group: str, name: str, **settings: Any) -> Callable:
