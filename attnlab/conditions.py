@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from attnlab.reading import Reading
     from attnlab.worlds.base import Layout
 
-IGNORED = ("seed", "study", "outputs", "fresh", "picture", "report", "labels", "cluster", "claims", "experiment")
+IGNORED = ("seed", "study", "outputs", "fresh", "picture", "report", "labels", "cluster", "claims_file",
+           "experiment")
 
 
 class Runs:

@@ -44,7 +44,7 @@ class RunSettings:
     check_identities: bool = setting(True, "check the bookkeeping on every cycle")
     picture: bool = setting(True, "draw the study's figures at its end")
     report: bool = setting(True, "build the study's report at its end")
-    claims: str = setting("dinocera2014", "claims file the study is judged by; its hash is stored when a run starts")
+    claims_file: str = setting("dinocera2014", "claims file the study is judged by; its hash is stored when a run starts")
     labels: dict = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}")
     validation: ValidationSettings = setting(ValidationSettings(), "how validation differs from training")
     reading: dict = setting({}, "how the paper's open points are read")
@@ -67,7 +67,7 @@ class RunSettings:
                 raise ConfigError(name, f"{value!r} cannot be the name of a folder")
 
 
-NOT_IN_KEY = ("study", "outputs", "fresh", "picture", "report", "claims", "labels", "cluster")  # change no number of a run
+NOT_IN_KEY = ("study", "outputs", "fresh", "picture", "report", "claims_file", "labels", "cluster")  # change no number
 
 
 class Experiment:

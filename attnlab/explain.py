@@ -60,10 +60,10 @@ def _unknown_key(text: str, arguments: Sequence[str]) -> ConfigError | None:
 
 
 def _nearest_key(key: str) -> ConfigError:
-    from attnlab.store import root_node
+    from attnlab.store import GROUPS_OF_RUN, root_node
     head, _, last = key.rpartition(".")
     if not head:
-        return ConfigError(key, "no such setting", nearest(key, [*root_node(), *registry.GROUPS, "reading", "cluster"]))
+        return ConfigError(key, "no such setting", nearest(key, [*root_node(), *GROUPS_OF_RUN]))
     known: set[str] = set()
     group = head.split(".")[0]
     if group == "reading":

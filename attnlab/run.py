@@ -90,7 +90,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     started = time.perf_counter()
     about = {"status": "running", "key": info["key"], "seed": config["seed"], "overrides": list(info["overrides"]),
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
-             "condition": info.get("condition"), "versions": versions(), "claims": _claims(config), "pid": os.getpid(), "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
+             "condition": info.get("condition"), "versions": versions(), "claims": _claims(config), "pid": os.getpid(),
+             "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
     write_json(folder / "run.json", about)
     write_bytes(folder / "config.yaml", OmegaConf.to_yaml(OmegaConf.create(dict(config))).encode())
     for name in TABLES:
@@ -115,7 +116,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
 def _claims(config: Mapping[str, Any]) -> dict[str, str] | None:
     """Name and hash of the claims file as it is when the run starts, so that later changes show."""
     from attnlab.claims import claims_hash
-    name = config.get("claims")
+    name = config.get("claims_file")
     return {"name": name, "sha256": claims_hash(name)} if name else None
 
 

@@ -8,7 +8,8 @@ from attnlab.launch.settings import LocalCluster
 from attnlab.reading import Reading
 from attnlab.settings import defaults_of
 
-GROUPS_OF_RUN = {*registry.GROUPS, "reading", "cluster"}
+GROUPS_OF_RUN = {group for group in (*registry.GROUPS, "reading", "cluster")
+                 if group in RunSettings.__dataclass_fields__}
 
 
 def root_node() -> dict:
@@ -27,7 +28,7 @@ def store_options() -> None:
                 provider="attnlab")
     store.store(group="cluster", name="local", node={"name": "local", **defaults_of(LocalCluster)}, provider="attnlab")
     for (group, _), spec in registry.parts.items():
-        if group not in RunSettings.__dataclass_fields__:
+        if group not in GROUPS_OF_RUN:
             continue  # measures, say: parts of a report, not of a run
         for option, node in spec.nodes().items():
             package = f"behaviours.{option}" if group == "behaviours" else None

@@ -24,18 +24,18 @@ def claims_folders() -> list[Path]:
 def claims_path(name: str) -> Path:
     """The file of claims ``name``: a name (dinocera2014) or a path to a .yaml. Raises ConfigError if there is none."""
     if not isinstance(name, str) or not name.strip():
-        raise ConfigError("claims", f"expected the name or the path of a claims file, got {name!r}")
+        raise ConfigError("claims_file", f"expected the name or the path of a claims file, got {name!r}")
     path = Path(name)
     if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
         if path.is_file():
             return path
-        raise ConfigError(f"claims={name}", "there is no such file")
+        raise ConfigError(f"claims_file={name}", "there is no such file")
     for folder in claims_folders():
         found = folder / f"{name}.yaml"
         if found.is_file():
             return found
     known = {file.stem for folder in claims_folders() for file in folder.glob("*.yaml")}
-    raise ConfigError(f"claims={name}", f"no claims file is called '{name}'", nearest(name, known) if known else "")
+    raise ConfigError(f"claims_file={name}", f"no claims file is called '{name}'", nearest(name, known) if known else "")
 
 
 def claims_hash(name: str) -> str:

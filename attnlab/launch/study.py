@@ -53,8 +53,8 @@ def make_job(config: dict[str, Any], overrides: Sequence[str], swept: Mapping[st
     settings = Experiment(config).settings
     if settings.cluster.get("name") == "local":
         build(LocalCluster, {k: v for k, v in settings.cluster.items() if k != "name"}, "cluster")
-    if settings.claims:
-        claims_path(settings.claims)
+    if settings.claims_file:
+        claims_path(settings.claims_file)
     names = [_label(config, swept[key], key) for key in sorted(swept)] or [config["curiosity"]["name"]]
     condition = " ".join(str(settings.labels.get(name, name)) for name in names)
     stem = re.sub(r"[^A-Za-z0-9_.+-]+", "_", "_".join(names)).strip("._")[:80]

@@ -42,7 +42,7 @@ CASES = [
     (["simulator.gui=maybe"], "simulator.gui", "true or false"),
     (["cluster.jobs=0"], "cluster.jobs", "at least 1"),
     (["behaviours=[]"], "behaviours", "there are none"),
-    (["claims=nobody"], "claims=nobody", "no claims file"),
+    (["claims_file=nobody"], "claims_file=nobody", "no claims file"),
     (["a=b=c"], "a=b=c", "cannot be read"),
     (["--multirum"], "--multirum", "Did you mean '--multirun'"),
     (["-m", "curiosity=interval(0,1)"], "curiosity", "List them"),

@@ -23,7 +23,7 @@ def digest(folder) -> dict[str, str]:
 @pytest.mark.parametrize("simulator", ["planar", "pybullet"])
 @pytest.mark.parametrize("curiosity", ["litman", "none"])
 def test_twice_in_one_process(tmp_path, simulator, curiosity):
-    settings = config(simulator=simulator, curiosity=curiosity, max_cycles=300, claims="dinocera2014")
+    settings = config(simulator=simulator, curiosity=curiosity, max_cycles=300, claims_file="dinocera2014")
     assert run_to_folder(settings, tmp_path / "one", INFO)
     random.seed(3)
     np.random.seed(3)
