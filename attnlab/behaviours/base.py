@@ -33,7 +33,7 @@ class Senses:
     def front_distances(self) -> list[float]:
         """Echoes of the 8 frontal sonars as distances from the robot's centre, m, left to right."""
         if self._front_at != self.cycle:
-            self._front = centre_distances(self.simulator.sonar()[:len(FRONT)])
+            self._front = centre_distances(self.simulator.sonar(len(FRONT)))
             self._front_at = self.cycle
         return self._front
 

@@ -2,7 +2,7 @@
 
 ``boxes`` is an (n, 7) float64 array, a row a solid: centre x, y (m), cos and sin of its yaw, half length, half width
 (m), radius of its circumcircle (m). ``trace`` is the (cycles + 1, 3) float64 array of poses; the robot stands at
-``trace[cycle]``. A solid is met from outside only: a ray that starts in a box does not meet that box, as in Bullet.
+``trace[cycle]``.
 """
 
 from __future__ import annotations
@@ -16,41 +16,46 @@ from attnlab.kernels.compile import compiled
 
 
 @njit(error_model="numpy")
-def entry(x, y, dx, dy, c, s, half_length, half_width):
-    """Where the line from (x, y), relative to the box's centre, along (dx, dy) enters it, in units of (dx, dy);
-    infinite if it misses, or starts inside or beyond it."""
+def crossing(x, y, dx, dy, c, s, half_length, half_width):
+    """Where the line from (x, y), relative to the box's centre, along (dx, dy) enters and leaves it, in units of
+    (dx, dy); (inf, -inf) if it misses."""
     px, py = c * x + s * y, c * y - s * x
     qx, qy = c * dx + s * dy, c * dy - s * dx
-    near, far = -inf, inf
-    if qx == 0.0:
-        if abs(px) > half_length:
-            return inf
-    else:
+    enters, leaves = -inf, inf
+    if qx != 0.0:
         one, two = (-half_length - px) / qx, (half_length - px) / qx
-        near, far = min(one, two), max(one, two)
-    if qy == 0.0:
-        if abs(py) > half_width:
-            return inf
-    else:
+        enters, leaves = min(one, two), max(one, two)
+    elif abs(px) > half_length:
+        return inf, -inf
+    if qy != 0.0:
         one, two = (-half_width - py) / qy, (half_width - py) / qy
-        near, far = max(near, min(one, two)), min(far, max(one, two))
-    return near if 0.0 <= near <= far else inf
+        enters, leaves = max(enters, min(one, two)), min(leaves, max(one, two))
+    elif abs(py) > half_width:
+        return inf, -inf
+    return (enters, leaves) if enters <= leaves else (inf, -inf)
 
 
 @compiled("void(float64[:, ::1], int64, float64[:, ::1], float64[:, ::1], float64, float64, float64[::1])")
-def sonar(trace, cycle, boxes, ring, reach, shortest, ranges):
-    """Fill ``ranges`` (m) of the first len(ranges) sonars of ``ring``: (k, 4) x, y (m), cos, sin in the robot frame."""
+def sonar(trace, cycle, boxes, beams, reach, shortest, ranges):
+    """Fill ``ranges`` (m) of the first len(ranges) rows of ``beams``, see :data:`attnlab.simulators.robot.BEAMS`.
+
+    The first surface on the way is heard, from whichever side.
+    """
     x, y, c, s = trace[cycle, 0], trace[cycle, 1], cos(trace[cycle, 2]), sin(trace[cycle, 2])
     for k in range(len(ranges)):
-        ox, oy = x + c * ring[k, 0] - s * ring[k, 1], y + s * ring[k, 0] + c * ring[k, 1]
-        dx, dy = c * ring[k, 2] - s * ring[k, 3], s * ring[k, 2] + c * ring[k, 3]
-        nearest = reach
+        ox, oy = x + c * beams[k, 0] - s * beams[k, 1], y + s * beams[k, 0] + c * beams[k, 1]
+        dx, dy = c * beams[k, 2] - s * beams[k, 3], s * beams[k, 2] + c * beams[k, 3]
+        nearest = beams[k, 4] + reach
         for b in range(len(boxes)):
             rx, ry, round_m = boxes[b, 0] - ox, boxes[b, 1] - oy, boxes[b, 6]
             if abs(dx * ry - dy * rx) > round_m or dx * rx + dy * ry + round_m < 0.0:
                 continue  # the ray passes by the box's circumcircle
-            nearest = min(nearest, entry(-rx, -ry, dx, dy, boxes[b, 2], boxes[b, 3], boxes[b, 4], boxes[b, 5]))
-        ranges[k] = max(nearest, shortest)
+            enters, leaves = crossing(-rx, -ry, dx, dy, boxes[b, 2], boxes[b, 3], boxes[b, 4], boxes[b, 5])
+            if enters >= 0.0:
+                nearest = min(nearest, enters)
+            elif leaves >= 0.0:
+                nearest = min(nearest, leaves)
+        ranges[k] = max(nearest - beams[k, 4], shortest)
 
 
 @njit(error_model="numpy")
@@ -113,7 +118,8 @@ def blobs(trace, cycle, boxes, cubes, columns, rows, focal, half_height, seen):
     """Blobs of the pinhole camera at the robot's centre; how many rows of ``seen`` are filled.
 
     The first ``cubes`` boxes make blobs, the others only hide. ``half_height``: how far every box reaches above and
-    below the camera, m. A pixel belongs to the box that its centre's ray meets first. A row of ``seen``: the box, its
+    below the camera, m. A pixel belongs to the box that its centre's ray enters first (one it starts in hides nothing,
+    as in a renderer that culls back faces). A row of ``seen``: the box, its
     centroid column (px from the left edge), its tallest column (px), its area (px).
     """
     x, y, c, s = trace[cycle, 0], trace[cycle, 1], cos(trace[cycle, 2]), sin(trace[cycle, 2])
@@ -123,10 +129,10 @@ def blobs(trace, cycle, boxes, cubes, columns, rows, focal, half_height, seen):
         for column in range(first, last):
             if b >= cubes and owner[column] < 0:
                 continue  # no cube there to hide
-            left = (columns / 2 - column - 0.5) / focal
-            depth = entry(x - boxes[b, 0], y - boxes[b, 1], c - s * left, s + c * left,  # so that lengths are depths
-                          boxes[b, 2], boxes[b, 3], boxes[b, 4], boxes[b, 5])
-            if depth < depths[column]:
+            left = (columns / 2 - column - 0.5) / focal  # sideways for each metre ahead, so that lengths are depths
+            depth, _ = crossing(x - boxes[b, 0], y - boxes[b, 1], c - s * left, s + c * left,
+                                boxes[b, 2], boxes[b, 3], boxes[b, 4], boxes[b, 5])
+            if 0.0 <= depth < depths[column]:
                 depths[column], owner[column] = depth, b
     seen[:cubes] = 0.0
     for column in range(columns):
@@ -147,21 +153,19 @@ def blobs(trace, cycle, boxes, cubes, columns, rows, focal, half_height, seen):
 
 @compiled("int64(float64[:, ::1], int64, float64[:, ::1], float64, float64, float64, int64, float64, float64,"
           " float64[:, ::1], float64, float64)")
-def advance(trace, cycle, boxes, v, w, dt, cycles, radius, safety, ring, reach, shortest):
+def advance(trace, cycle, boxes, v, w, dt, cycles, radius, safety, beams, reach, shortest):
     """Move up to ``cycles`` cycles of ``dt`` s at v (m/s), w (rad/s), writing ``trace``; the number moved, negative if
-    the last of them crashed: the disc of ``radius`` m touches a box, or (``safety`` > 0) the echo of a sonar of
-    ``ring`` comes from nearer than ``safety`` m to the centre."""
-    ranges = np.empty(len(ring) if safety > 0.0 else 0)
+    the last of them crashed: the disc of ``radius`` m touches a box, or (``safety`` > 0) the echo of one of
+    ``beams`` comes from nearer than ``safety`` m to the centre."""
+    ranges = np.empty(len(beams) if safety > 0.0 else 0)
     for moved in range(1, cycles + 1):
         at = cycle + moved
         arc(trace, at, v, w, dt)
         if touches(trace[at, 0], trace[at, 1], boxes, radius):
             return -moved
         if safety > 0.0:
-            sonar(trace, at, boxes, ring, reach, shortest, ranges)
+            sonar(trace, at, boxes, beams, reach, shortest, ranges)
             for k in range(len(ranges)):
-                along = ring[k, 0] * ring[k, 2] + ring[k, 1] * ring[k, 3]
-                across = ring[k, 1] * ring[k, 2] - ring[k, 0] * ring[k, 3]
-                if hypot(ranges[k] + along, across) < safety:
+                if hypot(ranges[k] + beams[k, 4], hypot(beams[k, 0], beams[k, 1])) < safety:
                     return -moved
     return cycles

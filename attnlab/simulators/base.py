@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from attnlab.settings import setting
-from attnlab.simulators.robot import FRONT, Camera, centre_distances
+from attnlab.simulators.robot import FRONT, SONARS, Camera, centre_distances
 from attnlab.worlds.base import Layout
 
 
@@ -67,8 +67,9 @@ class Simulator(ABC):
         """(x m, y m, heading rad)."""
 
     @abstractmethod
-    def sonar(self) -> list[float]:
-        """16 ranges in m from the ring, in the order of :data:`attnlab.simulators.robot.SONARS`."""
+    def sonar(self, count: int = len(SONARS)) -> list[float]:
+        """Ranges in m from the ring of the first ``count`` of the 16 sonars, in the order of
+        :data:`attnlab.simulators.robot.SONARS`."""
 
     @abstractmethod
     def blobs(self) -> list[Blob]:
@@ -95,7 +96,7 @@ class Simulator(ABC):
     def too_near(self) -> bool:
         """The safety-distance rule: front-sonar minimum from the centre below the distance (False without the rule)."""
         return self.safety_distance_m is not None and \
-            min(centre_distances(self.sonar()[:len(FRONT)])) < self.safety_distance_m
+            min(centre_distances(self.sonar(len(FRONT)))) < self.safety_distance_m
 
     def __enter__(self):
         return self

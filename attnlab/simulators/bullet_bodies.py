@@ -10,7 +10,8 @@ from attnlab.worlds.base import Layout
 COLOURS = {"food": (0.1, 0.7, 0.2, 1), "water": (0.1, 0.3, 0.9, 1), "obstacle": (0.05, 0.05, 0.05, 1),
            "wall": (0.7, 0.7, 0.7, 1)}
 OUTER_WALLS = 4
-WORLD_GROUP, ROBOT_GROUP = 1, 2  # sonar rays start inside the footprint and must not hear it
+# Bullet lets two bodies meet if either one's mask holds the other's group; it puts rays in group 1.
+RAY, WORLD_GROUP, ROBOT_GROUP, RAY_GROUP = 1, 2, 4, 8  # a ray, what the robot touches, the robot, what rays meet
 CLEAR_M = 0.05  # the base hangs this far above the floor
 
 
@@ -18,28 +19,44 @@ def add_floor(p, client: int) -> int:
     """An endless floor for the wheels; the base never touches it."""
     floor = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client), physicsClientId=client)
     hide(p, client, floor)
-    p.setCollisionFilterGroupMask(floor, -1, WORLD_GROUP, WORLD_GROUP | ROBOT_GROUP, physicsClientId=client)
+    p.setCollisionFilterGroupMask(floor, -1, WORLD_GROUP, ROBOT_GROUP, physicsClientId=client)
     return floor
 
 
-def add_solids(p, client: int, layout: Layout, draw_all: bool) -> dict[int, int]:
-    """All solids as static boxes; returns body id -> index in ``layout.solids`` of those that make blobs."""
-    seen = {}
+def add_solids(p, client: int, layout: Layout, draw_all: bool) -> tuple[dict[int, int], dict[int, int]]:
+    """All solids as static boxes, each with a surface for rays around it.
+
+    Returns body -> index in ``layout.solids`` of the boxes that make blobs, and surface -> body of the same.
+    """
+    seen, surfaces = {}, {}
     inner_walls = sum(solid.kind == "wall" for solid in layout.solids) > OUTER_WALLS
     for index, solid in enumerate(layout.solids):
         half = (solid.length_m / 2, solid.width_m / 2, solid.height_m / 2)
+        place = (solid.x_m, solid.y_m, solid.height_m / 2)
+        turn = (0, 0, sin(solid.yaw_rad / 2), cos(solid.yaw_rad / 2))
         shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=half, physicsClientId=client)
         drawn = draw_all or solid.kind != "wall" or (inner_walls and index >= OUTER_WALLS)
         look = p.createVisualShape(p.GEOM_BOX, halfExtents=half, rgbaColor=COLOURS.get(solid.kind, (0.8, 0.4, 0.1, 1)),
                                    physicsClientId=client) if drawn else -1
-        body = p.createMultiBody(0, shape, look, (solid.x_m, solid.y_m, solid.height_m / 2),
-                                 (0, 0, sin(solid.yaw_rad / 2), cos(solid.yaw_rad / 2)), physicsClientId=client)
-        p.setCollisionFilterGroupMask(body, -1, WORLD_GROUP, WORLD_GROUP | ROBOT_GROUP, physicsClientId=client)
+        body = p.createMultiBody(0, shape, look, place, turn, physicsClientId=client)
+        p.setCollisionFilterGroupMask(body, -1, WORLD_GROUP, ROBOT_GROUP, physicsClientId=client)
         if not drawn:
             hide(p, client, body)
+        surface = p.createMultiBody(0, _surface(p, client, half), -1, place, turn, physicsClientId=client)
+        p.setCollisionFilterGroupMask(surface, -1, RAY_GROUP, RAY, physicsClientId=client)
+        hide(p, client, surface)
         if solid.kind != "wall":
-            seen[body] = index
-    return seen
+            seen[body], surfaces[surface] = index, body
+    return seen, surfaces
+
+
+def _surface(p, client: int, half: tuple[float, float, float]) -> int:
+    """The four sides as triangles: Bullet's ray is exact for them, and up to 1.4 mm short of a box."""
+    x, y, z = half
+    corners = [(i * x, j * y, k * z) for k in (-1, 1) for i, j in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+    sides = [triangle for a, b in ((0, 1), (1, 2), (2, 3), (3, 0)) for triangle in (a, b, b + 4, a, b + 4, a + 4)]
+    return p.createCollisionShape(p.GEOM_MESH, vertices=corners, indices=sides, flags=p.GEOM_FORCE_CONCAVE_TRIMESH,
+                                  physicsClientId=client)
 
 
 def hide(p, client: int, body: int) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from attnlab.errors import ConfigError
 from attnlab.registry import register
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
-from attnlab.simulators.robot import CAMERA_HEIGHT_M, FRONT, RADIUS_M, SONAR_MIN_M, SONARS
+from attnlab.simulators.robot import BEAMS, CAMERA_HEIGHT_M, FRONT, RADIUS_M, SONAR_MIN_M
 
 
 @register("simulator", "planar")
@@ -21,8 +21,9 @@ class Planar(Simulator):
     its pixel centres, with occlusion; the unicycle's exact arc for motion. It agrees with pybullet on the
     kinematic drive (docs/certificate.md). Draws nothing at random.
 
-    Every pose has an answer: outside of the arena the walls are heard and hide what is behind them from there too, and
-    a sonar or camera inside a box does not meet that box (as in Bullet); contact then holds anyway.
+    Every pose has an answer. Outside of the arena the walls are heard, and hide what is behind them. With the robot's
+    centre inside a box (contact holds there) its sonars hear the box's surface from within, its camera looks
+    through it.
     """
 
     @dataclass
@@ -43,9 +44,9 @@ class Planar(Simulator):
         self._solid = sorted(range(len(solids)), key=lambda i: (solids[i].kind == "wall", i))
         self._cubes = sum(solid.kind != "wall" for solid in solids)
         self._boxes = np.array([_row(solids[i]) for i in self._solid]).reshape(-1, 7)
-        self._ring = np.array([(x, y, cos(a), sin(a)) for x, y, a in SONARS])
-        self._front = self._ring[:len(FRONT)].copy()
-        self._ranges = np.zeros(len(SONARS))
+        self._beams = np.array(BEAMS)
+        self._front = self._beams[:len(FRONT)].copy()
+        self._ranges = {count: np.zeros(count) for count in range(1, len(BEAMS) + 1)}
         self._seen = np.zeros((self._cubes, 4))
 
     def place(self, x: float, y: float, heading: float) -> None:
@@ -55,10 +56,11 @@ class Planar(Simulator):
     def pose(self) -> tuple[float, float, float]:
         return tuple(self.trace[self.cycle].tolist())
 
-    def sonar(self) -> list[float]:
-        self._kernels.sonar(self.trace, self.cycle, self._boxes, self._ring, self.params.sonar_range_m, SONAR_MIN_M,
-                            self._ranges)
-        return self._ranges.tolist()
+    def sonar(self, count: int = len(BEAMS)) -> list[float]:
+        ranges = self._ranges[count]
+        self._kernels.sonar(self.trace, self.cycle, self._boxes, self._beams, self.params.sonar_range_m, SONAR_MIN_M,
+                            ranges)
+        return ranges.tolist()
 
     def blobs(self) -> list[Blob]:
         cam = self.camera
@@ -75,7 +77,8 @@ class Planar(Simulator):
         if cycles >= len(self.trace) - self.cycle:
             raise IndexError(f"{cycles} more cycles than the {len(self.trace) - 1} of an episode")
         moved = self._kernels.advance(self.trace, self.cycle, self._boxes, v, w, self.dt_s, cycles, RADIUS_M,
-                                      self.safety_distance_m or 0.0, self._front, self.params.sonar_range_m, SONAR_MIN_M)
+                                      self.safety_distance_m or 0.0, self._front, self.params.sonar_range_m,
+                                      SONAR_MIN_M)
         self.cycle += abs(moved)
         return abs(moved), moved < 0
 

@@ -7,21 +7,14 @@ import ctypes
 import os
 import weakref
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import cos, hypot, pi, sin
 
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
-from attnlab.simulators.bullet_bodies import WORLD_GROUP, add_floor, add_robot, add_solids
-from attnlab.simulators.robot import (
-    CAMERA_HEIGHT_M,
-    SONAR_HEIGHT_M,
-    SONAR_MIN_M,
-    SONARS,
-    WHEEL_BASE_M,
-    WHEEL_RADIUS_M,
-    arc,
-)
+from attnlab.simulators.bullet_bodies import RAY_GROUP, add_floor, add_robot, add_solids
+from attnlab.simulators.bullet_camera import Rays, Segmentation
+from attnlab.simulators.robot import BEAMS, SONAR_HEIGHT_M, SONAR_MIN_M, WHEEL_BASE_M, WHEEL_RADIUS_M, arc
 
 PHYSICS_HZ = 240
 
@@ -48,13 +41,16 @@ class PyBullet(Simulator):
     """One physics client, owned and closed. Draws nothing at random.
 
     ``drive=kinematic`` advances the pose by (v, w) and asks Bullet for contacts every cycle; ``drive=wheels`` steps
-    the physics at 240 Hz with motors on the two wheels. Blobs are counted in the segmentation mask of Bullet's
-    software renderer; walls are drawn only when the world has inner ones, as nothing hides behind the outer ones.
+    the physics at 240 Hz with motors on the two wheels. ``camera=segmentation`` counts blobs in the mask of Bullet's
+    software renderer, where walls are drawn only when the world has inner ones, as nothing hides behind the outer ones;
+    ``camera=rays`` sends one ray a column (docs/simulators.md says what each costs).
     """
 
     @dataclass
     class Params(SensorParams):
         drive: str = setting("kinematic", "how the robot moves", choices=("kinematic", "wheels"))
+        camera: str = setting("segmentation", "blobs from the rendered image, or from one ray a column",
+                              choices=("segmentation", "rays"))
         gui: bool = setting(False, "open Bullet's window")
         wheel_force_n: float = setting(40.0, "largest torque of a wheel motor", unit="N m", above=0)
 
@@ -69,14 +65,17 @@ class PyBullet(Simulator):
         self._finalizer = weakref.finalize(self, _disconnect, p, self._client)
         self._wheels = params.drive == "wheels"
         self._substeps = max(1, round(self.dt_s * PHYSICS_HZ))
-        self._mask_index: dict[int, int] = {}
         self._build()
-        self._projection = self._frustum(0.2, 30.0)
-        reach = params.sonar_range_m
-        z = SONAR_HEIGHT_M - self._base_z
-        self._ray_from = [(x, y, z) for x, y, _ in SONARS]
-        self._ray_to = [(x + reach * cos(a), y + reach * sin(a), z) for x, y, a in SONARS]
+        reach, z = params.sonar_range_m, SONAR_HEIGHT_M - self._base_z
+        self._ray_from = [(x, y, z) for x, y, *_ in BEAMS]
+        self._ray_to = [(x + c * (o + reach), y + s * (o + reach), z) for x, y, c, s, o in BEAMS]
+        self._beams = [(o, o + reach) for *_, o in BEAMS]
         self._pose = (0.0, 0.0, 0.0)
+        reach = 10.0 + hypot(self.layout.width_m, self.layout.depth_m)
+        if params.camera == "rays":
+            self._camera = Rays(p, self._client, self.camera, self._base_z, RAY_GROUP, self._surfaces, reach)
+        else:
+            self._camera = Segmentation(p, self._client, self.camera, reach)
 
     def _build(self) -> None:
         """The same bodies in the same order, so that every start is the first one."""
@@ -87,17 +86,10 @@ class PyBullet(Simulator):
         p.setGravity(0, 0, -9.81, physicsClientId=c)
         if self._wheels:
             add_floor(p, c)
-        self._mask_index = add_solids(p, c, self.layout, self.params.gui)
+        else:  # remember no contact point of an earlier pose: contact depends on the pose alone
+            p.setPhysicsEngineParameter(contactBreakingThreshold=1e-6, physicsClientId=c)
+        self._cubes, self._surfaces = add_solids(p, c, self.layout, self.params.gui)
         self._robot, self._base_z, self._joints = add_robot(p, c, self._wheels, self.params.gui)
-
-    def _frustum(self, near: float, far: float) -> list[float]:
-        """The camera's projection. Bullet's renderer samples a pixel at its corner of least coordinates, not at its
-        centre, so the view is shifted by half a pixel to the left and up."""
-        cam = self.camera
-        pixel = near / cam.focal_px
-        right, top = cam.columns / 2 * pixel, cam.rows / 2 * pixel
-        return self._p.computeProjectionMatrix(pixel / 2 - right, pixel / 2 + right, pixel / 2 - top, pixel / 2 + top,
-                                               near, far)
 
     def place(self, x: float, y: float, heading: float) -> None:
         if self._wheels:  # contacts with the floor would be remembered; kinematic motion has no memory but the pose
@@ -115,32 +107,19 @@ class PyBullet(Simulator):
     def pose(self) -> tuple[float, float, float]:
         return self._pose
 
-    def sonar(self) -> list[float]:
-        hits = self._p.rayTestBatch(self._ray_from, self._ray_to, parentObjectUniqueId=self._robot,
-                                    collisionFilterMask=WORLD_GROUP,
-                                    physicsClientId=self._client)
-        reach = self.params.sonar_range_m
-        return [max(SONAR_MIN_M, hit[2] * reach) for hit in hits]
+    def sonar(self, count: int = len(BEAMS)) -> list[float]:
+        hits = self._p.rayTestBatch(self._ray_from[:count], self._ray_to[:count], parentObjectUniqueId=self._robot,
+                                    collisionFilterMask=RAY_GROUP, physicsClientId=self._client)
+        return [max(SONAR_MIN_M, hit[2] * length - offset)
+                for hit, (offset, length) in zip(hits, self._beams, strict=False)]
 
     def blobs(self) -> list[Blob]:
-        import numpy as np
-        p, cam = self._p, self.camera
-        x, y, heading = self._pose
-        z = CAMERA_HEIGHT_M
-        view = p.computeViewMatrix((x, y, z), (x + cos(heading), y + sin(heading), z), (0, 0, 1))
-        mask = p.getCameraImage(cam.columns, cam.rows, view, self._projection, renderer=p.ER_TINY_RENDERER,
-                                flags=p.ER_SEGMENTATION_MASK_OBJECT_AND_LINKINDEX, physicsClientId=self._client)[4]
-        mask = np.asarray(mask).reshape(cam.rows, cam.columns)
-        blobs = []
-        for body, index in self._mask_index.items():
-            pixels = mask == body
-            columns = pixels.sum(axis=0).tolist()
+        cam, solids, blobs = self.camera, self.layout.solids, []
+        for body, columns in self._camera.look(*self._pose, self._robot, list(self._cubes)).items():
             area = sum(columns)
-            if area:
-                centre = sum((i + 0.5) * n for i, n in enumerate(columns)) / area
-                height, bearing = max(columns), cam.bearing(centre)
-                blobs.append(Blob(self.layout.solids[index].kind, bearing, height, area,
-                                  cam.distance(height, bearing), index))
+            centre = sum((i + 0.5) * n for i, n in enumerate(columns)) / area
+            height, bearing, index = max(columns), cam.bearing(centre), self._cubes[body]
+            blobs.append(Blob(solids[index].kind, bearing, height, area, cam.distance(height, bearing), index))
         return blobs
 
     def advance(self, v: float, w: float, cycles: int) -> tuple[int, bool]:

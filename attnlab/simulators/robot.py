@@ -6,7 +6,8 @@ Sonar poses as published in public descriptions of the robot; the first eight ar
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, radians, sin, tan
+from functools import cached_property
+from math import atan2, cos, floor, hypot, radians, sin, tan
 
 RADIUS_M = 0.25  # footprint: the circle swept when the robot turns on the spot
 SONAR_HEIGHT_M = 0.2
@@ -24,6 +25,9 @@ SONAR_MIN_M = 0.1
 # r + o along the ray, p across: the hit point's distance from the centre is hypot(r + along, across).
 _ALONG = tuple(x * cos(a) + y * sin(a) for x, y, a in SONARS)
 _ACROSS = tuple(abs(-x * sin(a) + y * cos(a)) for x, y, a in SONARS)
+# Simulated beams start where their line passes nearest to the centre, well inside the footprint, because the rear ones
+# stand out of it by 6 mm and could otherwise start inside a wall: (foot x m, foot y m, cos, sin, m from foot to ring).
+BEAMS = tuple((x - o * cos(a), y - o * sin(a), cos(a), sin(a), o) for (x, y, a), o in zip(SONARS, _ALONG, strict=True))
 
 
 def centre_distances(ranges_m: list[float]) -> list[float]:
@@ -47,13 +51,15 @@ class Camera:
     rows: int
     fov_rad: float  # horizontal
 
-    @property
+    @cached_property
     def focal_px(self) -> float:
         return self.columns / 2 / tan(self.fov_rad / 2)
 
-    @property
-    def vertical_fov_rad(self) -> float:
-        return 2 * atan2(self.rows / 2, self.focal_px)
+    def rows_within(self, half_px: float) -> int:
+        """How many pixel centres of a column lie within ``half_px`` of the image's middle line."""
+        if half_px >= self.rows / 2:
+            return self.rows
+        return 2 * floor(half_px + 0.5) if self.rows % 2 == 0 else 2 * floor(half_px) + 1
 
     def bearing(self, column: float) -> float:
         """Bearing (rad, left positive) of a column coordinate (0 = left edge of the image)."""
