@@ -124,11 +124,17 @@ class Experiment:
     def _try_parts(self) -> None:
         """Construct everything that is cheap, so that a part's own complaint comes before the first run."""
         try:
-            self.agent(simulator=_NoSimulator())
+            agent = self.agent(simulator=_NoSimulator())
         except ConfigError:
             raise
         except Exception as cause:
             raise ConfigError(*_blame(cause)) from cause
+        simulator = self.simulator_spec[0].name
+        for attention in agent.attentions:
+            works_in = attention.behaviour.simulators
+            if works_in and simulator not in works_in:
+                raise ConfigError(f"behaviours.{attention.behaviour.name}", f"does not work in simulator={simulator}",
+                                  f"simulator={works_in[0]}")
 
     def simulator(self, validation: bool = False) -> Simulator:
         """A new simulator; the caller closes it."""

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from random import Random
 
+from attnlab.errors import ConfigError, nearest
 from attnlab.needs.base import Body, Need
 from attnlab.reading import Reading
 from attnlab.simulators.base import Blob, Simulator
@@ -58,7 +59,11 @@ class Senses:
 
     def need(self, name: str) -> float:
         """The value of a need, UoE."""
-        return self.body.values[self.body.index[name]]
+        body = self.body
+        try:
+            return body.values[body.index[name]]
+        except KeyError:
+            raise ConfigError("needs", f"nobody brings a need called '{name}'", nearest(name, body.index)) from None
 
 
 @dataclass(frozen=True)
@@ -72,12 +77,14 @@ class Behaviour(ABC):
     """One attentional behaviour (AIRM): percept, releaser and motor schema.
 
     ``sigma_low`` and ``sigma_high`` bound the percept sigma; ``charges`` are the causes of death it answers for
-    (``crash`` or the name of a need); ``needs`` are needs of its own that it brings along.
+    (``crash`` or the name of a need); ``needs`` are needs of its own that it brings along; ``simulators`` are those it
+    can work in, all if empty.
     """
     name: str
     sigma_low: float = 0.0
     sigma_high: float = 1.0
     charges: tuple[str, ...] = ()
+    simulators: tuple[str, ...] = ()
 
     def __init__(self, params, context: BehaviourContext):
         self.params, self.reading, self.draw = params, context.reading, context.draw

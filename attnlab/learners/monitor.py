@@ -43,7 +43,8 @@ class Monitor(NoLearner):
     @dataclass
     class Params:
         default: Function = setting(Function(), "the function of every behaviour not named below")
-        behaviours: dict = setting({"eat": dict(SATISFY), "drink": dict(SATISFY)}, "by behaviour: what differs")
+        behaviours: dict = setting({name: dict(SATISFY) for name in ("eat", "drink", "give")},
+                                   "by behaviour: what differs")
 
     def __init__(self, params: Params, context: LearnerContext):
         super().__init__(params, context)

@@ -16,7 +16,7 @@ class Scenes:
 
     def __init__(self, name: str, settings: dict):
         self.behaviour: Behaviour = make("behaviours", name, **settings)
-        self.simulator = make("simulator", "planar")
+        self.simulator = make("simulator", (self.behaviour.simulators or ("planar",))[0])
         self.body = make("needs", "survival").body(self.behaviour.needs())
         self.now = Senses(self.simulator, self.body)
         self.layout = layout()

@@ -80,8 +80,11 @@ def whole_run(group: str, name: str, settings: dict) -> dict:
     from attnlab.experiment import Experiment
     from attnlab.run import run_experiment
     if group == "behaviours":
-        chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))))
+        works_in = registry.find(group, name).cls.simulators
+        chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))), simulator=(works_in or ("planar",))[0])
         chosen["behaviours"][name].update(settings)
+    elif group == "needs":
+        chosen = config(needs={"name": name, **settings}, behaviours=("avoid",))
     else:
         chosen = config(**{group: {"name": name, **settings}})
     return run_experiment(Experiment(chosen))[0]
