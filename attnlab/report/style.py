@@ -22,7 +22,7 @@ OTHERS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#882255", "#99
 DASHES = ("-", (0, (5, 1.6)), (0, (1.5, 1.2)), (0, (6, 1.4, 1.5, 1.4)))
 ROLE_COLOURS = {"litman": VERMILLION, "none": BLUE}
 WIDTH_IN = 8.6
-DPI = 110
+DPI = 140
 INK, GREY = "#222222", "#767676"
 
 
