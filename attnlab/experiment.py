@@ -45,6 +45,8 @@ class RunSettings:
     picture: bool = setting(True, "draw the study's figures at its end")
     report: bool = setting(True, "build the study's report at its end")
     claims_file: str = setting("dinocera2014", "claims file the study is judged by; its hash is stored when a run starts")
+    variants: Any = setting(None, "settings that are swept together: {name: {setting: value, ...}, ...}, or "
+                            "{design: multiverse, size: 64, seed: 0}")
     labels: dict = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}")
     validation: ValidationSettings = setting(ValidationSettings(), "how validation differs from training")
     reading: dict = setting({}, "how the paper's open points are read")
@@ -67,7 +69,8 @@ class RunSettings:
                 raise ConfigError(name, f"{value!r} cannot be the name of a folder")
 
 
-NOT_IN_KEY = ("study", "outputs", "fresh", "picture", "report", "claims_file", "labels", "cluster")  # change no number
+NOT_IN_KEY = ("study", "outputs", "fresh", "picture", "report", "claims_file", "variants", "labels",
+              "cluster")  # change no number
 
 
 class Experiment:

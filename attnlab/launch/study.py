@@ -48,14 +48,18 @@ def run_key(config: Mapping[str, Any]) -> str:
     return hashlib.sha256(json.dumps(kept, sort_keys=True, default=str).encode()).hexdigest()[:10]
 
 
-def make_job(config: dict[str, Any], overrides: Sequence[str], swept: Mapping[str, Any]) -> Job:
-    """A checked job. Raises ConfigError for anything that can be known to fail before it starts."""
+def make_job(config: dict[str, Any], overrides: Sequence[str], swept: Mapping[str, Any],
+             named: Sequence[str] | None = None) -> Job:
+    """A checked job. Raises ConfigError for anything that can be known to fail before it starts.
+
+    ``swept``: what sets this run apart, by setting; ``named``: those of them that make its condition's name (all).
+    """
     settings = Experiment(config).settings
     if settings.cluster.get("name") == "local":
         build(LocalCluster, {k: v for k, v in settings.cluster.items() if k != "name"}, "cluster")
     if settings.claims_file:
         claims_path(settings.claims_file)
-    names = [_label(config, swept[key], key) for key in sorted(swept)] or [config["curiosity"]["name"]]
+    names = [_label(swept[key], key) for key in sorted(swept if named is None else named)] or [config["curiosity"]["name"]]
     condition = " ".join(str(settings.labels.get(name, name)) for name in names)
     stem = re.sub(r"[^A-Za-z0-9_.+-]+", "_", "_".join(names)).strip("._")[:80]
     key = run_key(config)
@@ -65,7 +69,7 @@ def make_job(config: dict[str, Any], overrides: Sequence[str], swept: Mapping[st
                settings.train_episodes + settings.validation_episodes)
 
 
-def _label(config: Mapping[str, Any], value: Any, key: str) -> str:
+def _label(value: Any, key: str) -> str:
     return str(value) if "." not in key else f"{key.rpartition('.')[2]}={value}"
 
 

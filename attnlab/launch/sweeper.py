@@ -24,6 +24,7 @@ from attnlab import registry
 from attnlab.argv import RANGED, seeds
 from attnlab.errors import ConfigError
 from attnlab.launch.study import Job, check_place, make_job
+from attnlab.launch.variants import as_override, read_variants
 
 MOST_RUNS = 100_000
 NAMESPACE = "hydra_plugins.attnlab"
@@ -60,16 +61,24 @@ class StudySweeper(Sweeper):
         merged.update(given)  # what is typed replaces what the experiment sweeps
         swept = [key.lstrip("+~") for key, override in merged.items() if override.is_sweep_override()]
         self._check_size(merged.values())
+        variants = read_variants(OmegaConf.to_container(self.config.variants) if self.config.variants else None)
         choices = [[f"{key}={value}" for value in override.sweep_string_iterator()] if override.is_sweep_override()
                    else [f"{key}={override.get_value_element_as_str()}"] for key, override in merged.items()]
         combinations = list(itertools.product(*choices))
         composed: dict[tuple[str, ...], dict] = {}
         jobs: dict[str, Job] = {}
-        for overrides in combinations:
-            config = self._compose(tuple(overrides), composed)
-            values = {key: self._value(overrides, key) for key in swept if key != "seed"}
-            job = make_job(config, [o for o in overrides], values)
-            jobs.setdefault(job.key, job)
+        for typed in combinations:
+            for name, together in variants.items():
+                # What is swept or typed for one of a variant's settings gives way: the variant is what is compared.
+                overrides = [o for o in typed if _key(o) not in together]
+                overrides += [f"{key}={as_override(value)}" for key, value in together.items()]
+                config = self._compose(tuple(overrides), composed)
+                values = {key: self._value(overrides, key) for key in swept if key != "seed"}
+                if name is not None:
+                    values.update({"variant": name, **{key: _plain(value) for key, value in together.items()}})
+                named = [key for key in values if key not in together]
+                job = make_job(config, overrides, values, named)
+                jobs.setdefault(job.key, job)
         return list(jobs.values()), [key for key in swept if key != "seed"]
 
     def _check_size(self, overrides) -> None:
@@ -100,9 +109,17 @@ class StudySweeper(Sweeper):
     @staticmethod
     def _value(overrides: Sequence[str], key: str) -> Any:
         import yaml
-        text = next(o.partition("=")[2] for o in overrides if o.partition("=")[0].lstrip("+~") == key)
+        text = next(o.partition("=")[2] for o in overrides if _key(o) == key)
         value = yaml.safe_load(text) if text[:1] not in "[{" else text
         return value if isinstance(value, (int, float, bool, str)) else text
+
+
+def _key(override: str) -> str:
+    return override.partition("=")[0].lstrip("+~")
+
+
+def _plain(value: Any) -> Any:
+    return value if isinstance(value, (int, float, bool, str)) else str(value)
 
 
 class PluginFolders(SearchPathPlugin):

@@ -1,0 +1,61 @@
+"""Settings that are swept together, which Hydra's grammar of products cannot say."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from attnlab.errors import ConfigError, nearest
+
+DESIGNS = ("multiverse",)
+
+
+def read_variants(node: Any) -> dict[str | None, dict[str, Any]]:
+    """Variants by name: setting -> value. A study without any has the one variant None, which changes nothing.
+
+    ``{design: multiverse, size: 64, seed: 0}`` asks :func:`attnlab.multiverse.design` for them. Raises ConfigError.
+    """
+    if not node:
+        return {None: {}}
+    if not isinstance(node, Mapping):
+        raise ConfigError("variants", f"expected {{name: {{setting: value}}}}, got {node!r}")
+    if "design" in node:
+        return _design(node)
+    for name, together in node.items():
+        if not isinstance(together, Mapping) or not together:
+            raise ConfigError(f"variants.{name}", f"expected {{setting: value}}, got {together!r}")
+        if "seed" in together:
+            raise ConfigError(f"variants.{name}.seed", "seeds are swept apart", "seed=0-4")
+    return {str(name): dict(together) for name, together in node.items()}
+
+
+def _design(node: Mapping[str, Any]) -> dict[str | None, dict[str, Any]]:
+    if node["design"] not in DESIGNS:
+        raise ConfigError("variants.design", f"'{node['design']}' is none", nearest(str(node["design"]), DESIGNS))
+    unknown = set(node) - {"design", "size", "seed"}
+    if unknown:
+        raise ConfigError(f"variants.{min(unknown)}", "no such setting", nearest(min(unknown), ("size", "seed")))
+    from attnlab.multiverse import design
+    size, seed = node.get("size", 64), node.get("seed", 0)
+    for name, value, low in (("size", size, 2), ("seed", seed, 0)):
+        if not isinstance(value, int) or isinstance(value, bool) or value < low:
+            raise ConfigError(f"variants.{name}", f"is {value!r}, must be a whole number of at least {low}")
+    readings = design(size, seed)
+    width = len(str(len(readings) - 1))
+    return {f"r{i:0{width}d}": dict(reading) for i, reading in enumerate(readings)}
+
+
+def as_override(value: Any) -> str:
+    """A value in Hydra's grammar."""
+    if isinstance(value, bool) or value is None:
+        return json.dumps(value)
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, (list, tuple)):
+        return "[" + ",".join(as_override(item) for item in value) + "]"
+    if isinstance(value, Mapping):
+        return "{" + ",".join(f"{key}:{as_override(item)}" for key, item in value.items()) + "}"
+    plain = str(value)
+    return plain if plain.replace("_", "").replace(".", "").replace("-", "").isalnum() else \
+        "'" + plain.replace("\\", "\\\\").replace("'", "\\'") + "'"
