@@ -36,11 +36,11 @@ def _design(node: Mapping[str, Any]) -> dict[str | None, dict[str, Any]]:
     unknown = set(node) - {"design", "size", "seed"}
     if unknown:
         raise ConfigError(f"variants.{min(unknown)}", "no such setting", nearest(min(unknown), ("size", "seed")))
-    from attnlab.multiverse import design
     size, seed = node.get("size", 64), node.get("seed", 0)
     for name, value, low in (("size", size, 2), ("seed", seed, 0)):
         if not isinstance(value, int) or isinstance(value, bool) or value < low:
             raise ConfigError(f"variants.{name}", f"is {value!r}, must be a whole number of at least {low}")
+    from attnlab.multiverse import design
     readings = design(size, seed)
     width = len(str(len(readings) - 1))
     return {f"r{i:0{width}d}": dict(reading) for i, reading in enumerate(readings)}
