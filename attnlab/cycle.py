@@ -52,7 +52,7 @@ def machine_cycle(agent: Agent, exploration: Exploration, learning: bool) -> tup
     # 2. Commands are held until their behaviour looks again; all that are held become one.
     v, w = agent.fusion.fuse([a.command for a in attentions if a.command is not None])
     # 3. The robot moves; contact and the safety distance are tested in every cycle.
-    idle_until = min(min(a.due for a in attentions), agent.max_cycles)
+    idle_until = min(agent.max_cycles, *[a.due for a in attentions])
     cycles, crashed = agent.simulator.advance(v, w, body.until_death(active, idle_until - start))
     # 4. Needs and energy change, and may end it.
     cause = body.live(active, cycles)

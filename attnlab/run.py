@@ -29,13 +29,15 @@ def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, floa
     simulator, body = agent.simulator, agent.body
     feeding = [i for i, need in enumerate(body.needs) if need.feeds_energy and not need.per_cycle]
     growth = sum(body.needs[i].per_activation for i in feeding)
+    check = check and len(feeding) == sum(need.feeds_energy for need in body.needs)
+    balance = body.energy + sum([body.values[i] for i in feeding])
     events, death = [], None
     while death is None and simulator.cycle < agent.max_cycles:
-        cycle, before = simulator.cycle, body.energy + sum(body.values[i] for i in feeding)
+        cycle = simulator.cycle
         active, death = machine_cycle(agent, exploration, learning)
-        if check and len(feeding) == sum(need.feeds_energy for need in body.needs):
-            check_balance(before, body.energy + sum(body.values[i] for i in feeding), body.e_u, body.e_nb, growth,
-                          active, simulator.cycle - cycle)
+        if check:
+            before, balance = balance, body.energy + sum([body.values[i] for i in feeding])
+            check_balance(before, balance, body.e_u, body.e_nb, growth, active, simulator.cycle - cycle)
         events.append(Event(cycle, active, body.energy, tuple(body.values)))
     penalties = [a.died(death, learning) if death else 0.0 for a in agent.attentions]
     return events, death, penalties

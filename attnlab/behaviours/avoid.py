@@ -55,7 +55,7 @@ class Avoid(Behaviour):
         heard = now.front_distances()
         near, free, stop = min(heard), self.sigma_high, r.stop_m
         v = r.v_max_m_s * min(1.0, max(0.0, (near - stop) / (free - stop)))
-        w = sum(turn for turn, d in zip(self._turns, heard, strict=True) if d < self._active_m)
+        w = sum([turn for turn, d in zip(self._turns, heard, strict=True) if d < self._active_m])
         if min(heard[2:6]) >= self._blocked_m:
             self._side = 0.0
             return v, w

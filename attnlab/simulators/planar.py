@@ -33,7 +33,7 @@ class Planar(Simulator):
     def __init__(self, params: Params, context: SimulatorContext):
         super().__init__(params, context)
         from attnlab.kernels import planar
-        self._kernels = planar
+        self._sonar, self._blobs, self._advance = planar.sonar, planar.blobs, planar.advance
         solids = context.layout.solids
         for solid in solids:
             if solid.height_m != 2 * CAMERA_HEIGHT_M:
@@ -58,14 +58,15 @@ class Planar(Simulator):
 
     def sonar(self, count: int = len(BEAMS)) -> list[float]:
         ranges = self._ranges[count]
-        self._kernels.sonar(self.trace, self.cycle, self._boxes, self._beams, self.params.sonar_range_m, SONAR_MIN_M,
-                            ranges)
+        self._sonar(self.trace, self.cycle, self._boxes, self._beams, self.params.sonar_range_m, SONAR_MIN_M, ranges)
         return ranges.tolist()
 
     def blobs(self) -> list[Blob]:
         cam = self.camera
-        found = self._kernels.blobs(self.trace, self.cycle, self._boxes, self._cubes, cam.columns, cam.rows,
-                                    cam.focal_px, CAMERA_HEIGHT_M, self._seen)
+        found = self._blobs(self.trace, self.cycle, self._boxes, self._cubes, cam.columns, cam.rows, cam.focal_px,
+                            CAMERA_HEIGHT_M, self._seen)
+        if not found:
+            return []
         blobs = []
         for box, centre, height, area in self._seen[:found].tolist():
             index, bearing = self._solid[int(box)], cam.bearing(centre)
@@ -76,11 +77,13 @@ class Planar(Simulator):
     def advance(self, v: float, w: float, cycles: int) -> tuple[int, bool]:
         if cycles >= len(self.trace) - self.cycle:
             raise IndexError(f"{cycles} more cycles than the {len(self.trace) - 1} of an episode")
-        moved = self._kernels.advance(self.trace, self.cycle, self._boxes, v, w, self.dt_s, cycles, RADIUS_M,
-                                      self.safety_distance_m or 0.0, self._front, self.params.sonar_range_m,
-                                      SONAR_MIN_M)
-        self.cycle += abs(moved)
-        return abs(moved), moved < 0
+        moved = self._advance(self.trace, self.cycle, self._boxes, v, w, self.dt_s, cycles, RADIUS_M,
+                              self.safety_distance_m or 0.0, self._front, self.params.sonar_range_m, SONAR_MIN_M)
+        if moved < 0:
+            self.cycle -= moved
+            return -moved, True
+        self.cycle += moved
+        return moved, False
 
     def snapshot(self) -> tuple:
         return self.cycle, self.trace[:self.cycle + 1].copy()

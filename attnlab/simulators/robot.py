@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, cos, floor, hypot, radians, sin, tan
+from operator import add
 
 RADIUS_M = 0.25  # footprint: the circle swept when the robot turns on the spot
 SONAR_HEIGHT_M = 0.2
@@ -32,7 +33,7 @@ BEAMS = tuple((x - o * cos(a), y - o * sin(a), cos(a), sin(a), o) for (x, y, a),
 
 def centre_distances(ranges_m: list[float]) -> list[float]:
     """Sonar ranges (m, from the ring) as distances of the echoes from the robot's centre; the first n sonars of n."""
-    return [hypot(r + along, across) for r, along, across in zip(ranges_m, _ALONG, _ACROSS, strict=False)]
+    return list(map(hypot, map(add, ranges_m, _ALONG), _ACROSS))
 
 
 def arc(x: float, y: float, heading: float, v: float, w: float, dt: float) -> tuple[float, float, float]:
