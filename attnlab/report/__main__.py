@@ -1,0 +1,28 @@
+"""``python -m attnlab.report STUDY [--out DIR] [--claims NAME] [--baselines STUDY] [--quiet]``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from attnlab.console import guarded
+
+
+def main(argv: Sequence[str]) -> int:
+    """Entry point; returns 0."""
+    parser = argparse.ArgumentParser(
+        prog="python -m attnlab.report", description="Figures, verdicts on the paper's claims and one page of a study.")
+    parser.add_argument("study", help="folder of a study, or its name in outputs/")
+    parser.add_argument("--out", help="folder of the report (default: report/ in the study)")
+    parser.add_argument("--claims", help="name or path of a claims file (default: dinocera2014); see docs/claims.md")
+    parser.add_argument("--baselines", metavar="STUDY", help="a study of baselines for the attention economics")
+    parser.add_argument("--quiet", action="store_true", help="print nothing")
+    given = parser.parse_args(list(argv))
+    from attnlab.report import build_report
+    build_report(given.study, given.out, given.claims, given.baselines, given.quiet)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(guarded(main))

@@ -1,0 +1,193 @@
+"""From a study to its page: figures, tables, verdicts, written to one folder."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from attnlab.audit.table import load_table
+from attnlab.claims.files import Claims, load_claims
+from attnlab.claims.judge import Verdict, judge
+from attnlab.conditions import Conditions
+from attnlab.errors import ConfigError
+from attnlab.measures.rewards import Reward
+from attnlab.report import curves, economics, episode, found, policies, provenance, space, table5, verdicts
+from attnlab.report.page import Section, Shown, page, table
+from attnlab.report.style import drawing, png_bytes, svg_bytes
+from attnlab.results.files import write_bytes
+from attnlab.results.load import Study, load
+
+
+@dataclass
+class Figure:
+    """A figure of the report: how it is drawn, what the paper shows there, how to say what was found."""
+    key: str
+    title: str
+    paper: str
+    draw: Callable
+    say: Callable
+
+
+def _rewards() -> list[tuple[str, Reward]]:
+    return [("reward ", Reward(Reward.Params())), ("extrinsic part ", Reward(Reward.Params(extrinsic=True)))]
+
+
+FIGURES = [
+    Figure("fig06_survival", "Fig 6: survival", "NCR survives better until about episode 250 and starts above 90 %; CR "
+           "reaches 100 % around episode 300, NCR not before 450.", curves.survival,
+           found.start_and_end("survival", " %", 100)),
+    Figure("fig07_rewards", "Fig 7: cumulative rewards", "CR's AVOID reward is unsatisfactory until about episode 200 "
+           "and converges from 300; NCR's EAT and DRINK rewards end higher, CR's global reward ends higher and "
+           "converges faster. CR is paid on another scale (eq 4), so its extrinsic part is drawn too.", curves.rewards,
+           found.validation(_rewards(), " UoR an episode")),
+    Figure("fig08a_needs", "Fig 8A: needs within an episode", "CR alternates eating and drinking in a rhythm; NCR "
+           "waits until it is very hungry or very thirsty.", episode.needs, found.meals),
+    Figure("fig08b_maximum_need", "Fig 8B: largest need of an episode", "NCR's largest need is on average always above "
+           "CR's.", curves.maximum_need, found.start_and_end("hunger_max", " UoE hunger", block=10, digits=0)),
+    Figure("fig09_safety", "Fig 9: safety", "CR is safer: 0.61 on average against 0.38.", curves.safety,
+           found.start_and_end("safety_mean", "", block=10, digits=2)),
+    Figure("fig10_energy", "Fig 10: energy", "CR keeps its energy above E_well, at a high and stable level.",
+           curves.energy, found.start_and_end("energy_mean", " UoE", block=10, digits=0)),
+    Figure("fig11_paths", "Fig 11: paths and coverage", "CR's traces of 500 episodes cover 50 % of the area, NCR's 44 "
+           "%, and CR's path seems smoother. Shade: visits in training of the first seed (dark: often); line: its last "
+           "recorded episode from the circle on; green: food, blue: water.", space.paths, found.coverage),
+    Figure("policies", "Learned policies", "NCR DRINK learns 12 in bins 1-4 and 1 in bins 5-6; CR with low curiosity "
+           "12 in 1-3 and 1 in 4-6; CR with high curiosity 1 or 2 (read 4) everywhere. Large: the period that most "
+           "seeds learned; small: how many of the seeds that visited the bin; grey: never visited.", policies.heat_maps,
+           found.policies),
+    Figure("attention_raster", "Who looked when", "Not in the paper. Each tick is an activation, its colour the period "
+           "until the next look; hunger and thirst below on the same axis.", episode.raster, found.looks),
+    Figure("attention_economics", "Attention economics", "The paper gives 443 activations of CR and 364 of NCR in "
+           "about 1150 cycles (39 and 32 in 100). Large marks are means with 95 % intervals, small ones seeds; grey: "
+           "baselines, if given.", economics.economics, found.costs),
+]
+
+
+def build(study_path: str | Path, out: str | Path | None, claims_name: str, baselines: str | Path | None,
+          quiet: bool) -> Path:
+    """See :func:`attnlab.report.build_report`."""
+    claims = load_claims(claims_name)
+    study = load(study_path)
+    conditions = Conditions(study, claims.labels)
+    others = Conditions(load(baselines)) if baselines else None
+    target = Path(out) if out else study.path / "report"
+    try:
+        (target / "figures").mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        raise ConfigError("--out", f"{target} cannot be written ({cause.strerror or cause})") from None
+    judged = {conditions.stratum_name(s): judge(claims, conditions, dict(zip(conditions.settings, s, strict=True)))
+              for s in conditions.strata}
+    first = next(iter(judged.values()), [])
+    with drawing(), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
+        shown = [_draw(figure, conditions, others, first, target) for figure in FIGURES] if conditions.strata else []
+        sections = _sections(claims, conditions, judged, target)
+    sections.append(provenance.commands(study, conditions))
+    notes = provenance.notes(study, conditions, claims)
+    if not conditions.strata:
+        notes.insert(0, "there is no complete run in this study, so there is nothing to draw or to judge")
+    text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first, shown,
+                sections, provenance.block(study, conditions, claims))
+    write_bytes(target / "index.html", text.encode())
+    if not quiet:
+        _print(notes, first, target)
+    return target / "index.html"
+
+
+def _draw(figure: Figure, conditions: Conditions, others: Conditions | None, judged: list[Verdict],
+          target: Path) -> Shown:
+    import matplotlib.pyplot as plt
+    extra = (others,) if figure.key == "attention_economics" else ()
+    drawn = figure.draw(conditions, *extra)
+    png = png_bytes(drawn)
+    write_bytes(target / "figures" / f"{figure.key}.png", png)
+    write_bytes(target / "figures" / f"{figure.key}.svg", svg_bytes(drawn))
+    plt.close(drawn)
+    number = re.match(r"Fig (\d+)", figure.title)
+    ids = [v.id for v in judged if number and re.search(rf"\bFig {number[1]}(?!\d)", v.claim.where)]
+    return Shown(figure.key, figure.title, figure.paper, figure.say(conditions, *extra), png, ids)
+
+
+def _sections(claims: Claims, conditions: Conditions, judged: dict[str, list[Verdict]], target: Path) -> list[Section]:
+    """Table 5 and the claims, in the page and as CSV."""
+    paper = load_table()
+    tables = []
+    for stratum in conditions.strata:
+        within = dict(zip(conditions.settings, stratum, strict=True))
+        roles = {role.label: conditions.matching(role.where, within)[0] for role in claims.roles.values()}
+        if set(roles) & set(paper.conditions):
+            tables.append((conditions.stratum_name(stratum), table5.rows(paper, conditions, roles)))
+    write_bytes(target / "table5.csv", table5.as_csv(tables))
+    write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
+    sections = []
+    if tables:
+        html = "".join((f"<h3>{_escape(name)}</h3>" if name else "") + _table5(rows) for name, rows in tables[:4])
+        html += ("<p class=small>Mean ± standard deviation over validation episodes; here: mean over seeds, deviation "
+                 "over the episodes of all seeds. † The paper's text does not tell which of two cells this is.</p>")
+        sections.append(Section("table5", "Table 5, side by side", html))
+    if len(judged) > 1:
+        sections.append(verdicts.matrix(judged))
+    for place, (name, of) in enumerate(list(judged.items())[:1]):
+        section = verdicts.section(of, name)
+        sections.append(section if place == 0 else Section(f"claims{place}", section.title, section.html))
+    return sections
+
+
+def _escape(text: str) -> str:
+    from html import escape
+    return escape(text)
+
+
+def _table5(rows: list[table5.Row]) -> str:
+    labels = list(dict.fromkeys(row.condition for row in rows))
+    heads = ["", "unit", *(f"{label}, {what}" for label in labels for what in ("paper", "here", "difference"))]
+    body = []
+    for quantity in dict.fromkeys(row.quantity for row in rows):
+        mine = [row for row in rows if row.quantity == quantity]
+        body.append([mine[0].name, mine[0].unit, *(text for row in mine for text in table5.texts(row))])
+    return table(heads, body, range(2, len(heads)))
+
+
+def _lead(study: Study, conditions: Conditions) -> str:
+    """What was run, in a sentence or two, from the configs."""
+    runs = len(conditions.configs)
+    if not runs:
+        return f"{len(study.runs)} run folders, none complete."
+    seeds = sorted({s for c in conditions.curiosities for st in conditions.strata for s in conditions.runs(c, st).runs})
+    names = ", ".join(conditions.name(c) + (f" (curiosity={c})" if conditions.name(c) != c else "")
+                      for c in conditions.curiosities)
+    parts = [f"{runs} complete run{'s' * (runs > 1)} of {names}", f"seed{'s' * (len(seeds) > 1)} {_span(seeds)}"]
+    for setting in conditions.settings:
+        values = list(dict.fromkeys(st[conditions.settings.index(setting)] for st in conditions.strata))
+        parts.append(f"{setting} in {', '.join(values[:8])}" + (" …" if len(values) > 8 else ""))
+
+    def of(name: str) -> str:
+        return next(iter(dict.fromkeys(str((c.get(name) or {}).get("name", "?")) for c in conditions.configs.values())))
+    config = next(iter(conditions.configs.values()))
+    episodes = f"{config.get('train_episodes')} training and {config.get('validation_episodes')} validation episodes"
+    same = [f"{name} {of(name)}" for name in ("simulator", "world", "learner", "exploration", "reading")
+            if name not in conditions.settings]
+    return f"{', '.join(parts)}; {episodes}. {', '.join(same).capitalize()}."
+
+
+def _span(seeds: list[int]) -> str:
+    return f"{seeds[0]} to {seeds[-1]}" if len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1 else \
+        ", ".join(map(str, seeds[:20]))
+
+
+def _print(notes: list[str], judged: list[Verdict], target: Path) -> None:
+    import csv
+    for note in notes:
+        print(f"mind     {note}")
+    with open(target / "table5.csv", encoding="utf-8") as file:
+        has_table = len(list(csv.reader(file))) > 1
+    if judged:
+        verdicts.print_table(judged)
+    print(f"figures  {target / 'figures'}")
+    if has_table:
+        print(f"table 5  {target / 'table5.csv'}")
+    print(f"claims   {target / 'verdicts.csv'}")
+    print(f"page     {target / 'index.html'}")

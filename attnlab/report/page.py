@@ -1,0 +1,116 @@
+"""The page: one HTML file that needs no network and no scripts. Everything that a user named is escaped."""
+
+from __future__ import annotations
+
+import base64
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from pathlib import Path
+
+from attnlab.claims.files import Claims
+from attnlab.claims.judge import VERDICTS, Verdict
+
+CLASSES = dict(zip(VERDICTS, ("v-reproduced", "v-direction", "v-not", "v-contradicted", "v-untestable"), strict=True))
+MEANINGS = dict(zip(VERDICTS, (
+    "the claimed direction is clear over seeds, and the paper's number (if it gives one) is met",
+    "the claimed direction is clear, the number is not met", "the interval over seeds allows either side",
+    "the opposite direction is clear", "the runs cannot say"), strict=True))
+PROVENANCE = ("<!-- provenance:begin -->", "<!-- provenance:end -->")  # all that may differ between two builds
+
+
+@dataclass
+class Shown:
+    """A figure on the page. ``png``: its bytes; ``claims``: ids whose place in the paper it shows."""
+    key: str
+    title: str
+    paper: str
+    found: str
+    png: bytes
+    claims: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Section:
+    """A part of the page made elsewhere; ``html`` is already escaped."""
+    key: str
+    title: str
+    html: str
+
+
+def chip(verdict: str, text: str = "") -> str:
+    return f'<span class="chip {CLASSES[verdict]}">{escape(text or verdict)}</span>'
+
+
+def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict],
+         figures: Sequence[Shown], sections: Sequence[Section], provenance: str) -> str:
+    """The whole page. ``sections`` follow the figures; ``provenance`` is HTML."""
+    style = (Path(__file__).parent / "style.css").read_text()
+    links = [("verdicts", "Verdicts"), ("figures", "Figures"), *((s.key, s.title) for s in sections),
+             ("provenance", "Provenance")]
+    parts = [
+        "<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; img-src data:; '
+        'style-src \'unsafe-inline\'">',
+        '<link rel="icon" href="data:,">', f"<title>{escape(title)}</title>", f"<style>\n{style}</style>", "</head>",
+        "<body>", "<main>", f"<h1>{escape(title)}</h1>", f'<p class="lead">{escape(lead)}</p>',
+        _notes(notes), "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>",
+        headline(claims, verdicts), '<h2 id="figures">Figures</h2>',
+        *(_figure(shown, {v.id: v for v in verdicts}) for shown in figures),
+        *(f'<h2 id="{s.key}">{escape(s.title)}</h2>\n{s.html}' for s in sections),
+        PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1],
+        "</main>", "</body>", "</html>"]
+    return "\n".join(part for part in parts if part) + "\n"
+
+
+def _notes(notes: Sequence[str]) -> str:
+    if not notes:
+        return ""
+    return '<div class="notes" role="note"><strong>Mind</strong><ul>' + \
+        "".join(f"<li>{escape(note)}</li>" for note in notes) + "</ul></div>"
+
+
+def headline(claims: Claims, verdicts: Sequence[Verdict]) -> str:
+    """How many claims fared how, and which."""
+    if not verdicts:
+        return '<h2 id="verdicts">Verdicts</h2><p>There are no complete runs to judge by.</p>'
+    counts = Counter(v.verdict for v in verdicts)
+    bar = "".join(f'<span class="{CLASSES[v]}" style="flex: {counts[v]}">{counts[v]}</span>' for v in VERDICTS
+                  if counts[v])
+    key = "".join(f"<span>{chip(v)} {escape(MEANINGS[v])}</span>" for v in VERDICTS if counts[v])
+    items = []
+    for verdict in VERDICTS:
+        mine = [v for v in verdicts if v.verdict == verdict]
+        if mine:
+            said = "; ".join(f'<a href="#claim-{escape(v.id)}">{escape(v.id)}</a> {escape(v.claim.title)}'
+                             for v in mine)
+            items.append(f"<li>{chip(verdict)} {said}.</li>")
+    holds = counts[VERDICTS[0]] + counts[VERDICTS[1]]
+    source = f", {escape(claims.source)}" if claims.source else ""
+    return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{len(verdicts)} claims of <cite>{escape(claims.title)}</cite>'
+            f"{source}, judged by the rules of {escape(claims.path.name)}: the claimed direction holds in "
+            f"<b>{holds}</b>, and in {counts[VERDICTS[0]]} of these any number given is met too.</p>\n"
+            f'<div class="bar" role="img" aria-label="{holds} of {len(verdicts)} claims hold">{bar}</div>\n'
+            f'<div class="key small">{key}</div>\n<ul class="headline">{"".join(items)}</ul>')
+
+
+def _figure(shown: Shown, verdicts: Mapping[str, Verdict]) -> str:
+    data = base64.b64encode(shown.png).decode()
+    mine = [verdicts[key] for key in shown.claims if key in verdicts]
+    chips = " ".join(f'<a href="#claim-{escape(v.id)}">{chip(v.verdict, f"{v.id} {v.verdict}")}</a>' for v in mine)
+    told = f"<p>{chips}</p>" if chips else ""
+    return (f'<figure id="{shown.key}"><h3>{escape(shown.title)}</h3>'
+            f'<img alt="{escape(shown.title)}. {escape(shown.found)}" src="data:image/png;base64,{data}">'
+            f"<figcaption><p><b>The paper:</b> {escape(shown.paper)}</p><p><b>Here:</b> {escape(shown.found)}</p>{told}"
+            "</figcaption></figure>")
+
+
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = ()) -> str:
+    """A table of texts, escaped; columns in ``numbers`` are aligned to the right."""
+    def cells(row: Sequence[str], tag: str) -> str:
+        return "".join(f'<{tag}{" class=n" if i in numbers else ""}>{escape(str(c))}</{tag}>'
+                       for i, c in enumerate(row))
+    body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
+    return f'<div class="scroll"><table><thead><tr>{cells(heads, "th")}</tr></thead><tbody>{body}</tbody></table></div>'

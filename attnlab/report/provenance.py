@@ -1,0 +1,101 @@
+"""Where the page comes from: runs, versions, hashes, and the commands that make it again."""
+
+from __future__ import annotations
+
+import shlex
+from collections import Counter
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from html import escape
+
+from attnlab import __version__
+from attnlab.claims.files import Claims
+from attnlab.conditions import Conditions
+from attnlab.report.page import Section, table
+from attnlab.results.load import Study
+
+
+def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
+    """One line for everything that a reader must know before believing the page."""
+    found = []
+    runs = study.runs
+    other = runs[runs["status"] != "complete"] if len(runs) else runs
+    for status, group in other.groupby("status", sort=True) if len(other) else []:
+        named = [f"{row.run} ({row.why})" if row.why else row.run for row in group.head(8).itertuples()]
+        more = f" and {len(group) - 8} more" if len(group) > 8 else ""
+        found.append(f"{len(group)} of {len(runs)} runs are left out, {status}: {'; '.join(named)}{more}")
+    found += conditions.notes
+    found += _uneven(conditions)
+    started = Counter((study.about(run).get("claims") or {}).get("sha256") for run in conditions.configs)
+    unknown = started.pop(None, 0)
+    for sha, count in sorted(started.items()):
+        if sha != claims.sha256:
+            found.append(f"{count} runs were started under another claims file (sha256 {str(sha)[:12]}…) than the one "
+                         f"used here ({claims.path.name}, {claims.sha256[:12]}…): its rules may be younger than they")
+    if unknown and started:
+        found.append(f"{unknown} runs do not say which claims file they were started under")
+    versions = {tuple(sorted((study.about(run).get("versions") or {}).items())) for run in conditions.configs}
+    if len(versions) > 1:
+        found.append(f"the runs were made by {len(versions)} different sets of versions (see Provenance)")
+    return found
+
+
+def _uneven(conditions: Conditions) -> list[str]:
+    """Seeds that a condition lacks which others of the same settings have."""
+    found = []
+    for stratum in conditions.strata:
+        seeds = {c: set(conditions.runs(c, stratum).runs) for c in conditions.curiosities}
+        every = set().union(*seeds.values())
+        for curiosity, has in seeds.items():
+            missing = sorted(every - has)
+            if has and missing:
+                where = f" ({conditions.stratum_name(stratum)})" if stratum else ""
+                found.append(f"{conditions.name(curiosity)}{where} has no complete run of seed "
+                             f"{', '.join(map(str, missing[:20]))}; pairs need both")
+    return found[:12]
+
+
+def commands(study: Study, conditions: Conditions) -> Section:
+    """What to type to make runs and page again, from the overrides that the runs were started with."""
+    swept: dict[str, list[str]] = {}
+    for run in sorted(conditions.configs, key=lambda r: (study.about(r).get("seed") or 0, r)):
+        for override in study.about(run).get("overrides") or []:
+            key, _, value = str(override).partition("=")
+            values = swept.setdefault(key, [])
+            if value not in values:
+                values.append(value)
+    words = [f"{key}={','.join(_ranges(values) if key == 'seed' else values)}" for key, values in sorted(swept.items())]
+    many = any(len(values) > 1 for values in swept.values())
+    lines = [" ".join(["python -m attnlab", *(["-m"] if many else []), *map(shlex.quote, words)]),
+             f"python -m attnlab.report outputs/{shlex.quote(study.path.name)}"]
+    return Section("again", "Make it again", f"<pre>{escape(chr(10).join(lines))}</pre>"
+                   "<p class=small>Runs that are complete already are not run again.</p>")
+
+
+def _ranges(values: Sequence[str]) -> list[str]:
+    """["0", "1", "2", "5"] -> ["0-2", "5"]; anything else as it is."""
+    if not all(v.isdigit() for v in values):
+        return list(values)
+    runs: list[list[int]] = []
+    for number in sorted(map(int, values)):
+        if runs and number == runs[-1][1] + 1:
+            runs[-1][1] = number
+        else:
+            runs.append([number, number])
+    return [f"{a}-{b}" if b > a else str(a) for a, b in runs]
+
+
+def block(study: Study, conditions: Conditions, claims: Claims) -> str:
+    """The part of the page that may differ between two builds of the same data."""
+    about = [study.about(run) for run in conditions.configs]
+    versions = Counter(", ".join(f"{k} {v}" for k, v in (a.get("versions") or {}).items()) for a in about)
+    cpu = sum(a.get("cpu_s") or 0 for a in about)
+    cycles = sum(a.get("cycles") or 0 for a in about)
+    rows = [("page made", datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")), ("page made by", f"attnlab {__version__}"),
+            ("study", str(study.path)), ("claims file", f"{claims.path.name}, sha256 {claims.sha256}"),
+            *((f"{count} runs made by", text) for text, count in sorted(versions.items())),
+            ("machine cycles simulated", f"{cycles:,}"), ("processor time of the runs", f"{cpu:,.0f} s")]
+    runs = [(name, a.get("seed"), a.get("key"), a.get("wall_s"))
+            for name, a in zip(conditions.configs, about, strict=True)]
+    return table(("", ""), rows) + "<details><summary>All runs</summary>" + \
+        table(("run", "seed", "key", "wall time, s"), runs, (1, 3)) + "</details>"
