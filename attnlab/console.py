@@ -16,7 +16,7 @@ def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = N
         print(f"attnlab: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("attnlab: stopped; what was complete stays", file=sys.stderr)
+        print("attnlab: stopped; what was complete stays, and the same command goes on from there", file=sys.stderr)
         return 130
     except BrokenPipeError:  # | head
         sys.stderr.close()
