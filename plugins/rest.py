@@ -1,5 +1,4 @@
 """REST: a behaviour with a need of its own. Delete this file and nothing else changes; copy it to start your own."""
-
 from dataclasses import dataclass
 
 from attnlab.behaviours.base import Behaviour
@@ -14,7 +13,6 @@ class Rest(Behaviour):
     """Stops the robot when it is tired. sigma is fatigue, which every active behaviour and every cycle adds to and
     every activation of REST at rest takes from. Not in the paper; the reward has the form of eq (8). Draws nothing."""
     charges = ("fatigue",)
-
     @dataclass
     class Params:
         threshold: float = setting(600.0, "released at this fatigue", unit="UoE", low=0)

@@ -14,17 +14,12 @@ class Wander(Behaviour):
     """Heads for a random direction and for another one after a while (Brooks 1986). sigma is the free way ahead, the
     least of the four foremost sonars (m, from the centre); the reward has the form of eq (7). Not in the paper. Draws a
     number (stream ``behaviour/wander``) for each direction."""
+    sigma_high = 2.0
 
     @dataclass
     class Params:
-        view_m: float = setting(2.0, "free way from here on looks alike", unit="m", above=0)
         turn_rad_s: float = setting(0.6, "largest turn towards the direction", unit="rad/s", above=0)
         keep_cycles: int = setting(60, "cycles until another direction is drawn", unit="mc", low=1)
-
-    def __init__(self, params, context):
-        super().__init__(params, context)
-        self.sigma_high = params.view_m
-        self.start()
 
     def start(self):
         self._until, self._direction = -1, 0.0

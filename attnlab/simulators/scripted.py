@@ -31,7 +31,7 @@ class Scripted(Simulator):
     class Params(SensorParams):
         csv: str | None = setting(None, "file of a trajectory; None for the keyframes")
         keyframes: list[list[float]] = setting(
-            [[0.0, 1.5], [6.0, 1.5], [9.0, 0.8], [14.0, 0.8], [15.0, 0.25], [20.0, 0.25], [24.0, 1.5]],
+            [[0.0, 1.5], [4.0, 1.5], [9.0, 0.9], [13.0, 0.9], [15.0, 0.2], [19.0, 0.2], [22.0, 1.5]],
             "[t s, distance of the hand m]: rest, a slow approach, rest, a fast one, rest close by, retreat")
 
     def __init__(self, params: Params, context: SimulatorContext):

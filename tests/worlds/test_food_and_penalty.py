@@ -1,0 +1,82 @@
+"""Sources that run out and fill again; who is punished for a death; needs that a behaviour brings."""
+
+import pytest
+
+from attnlab.errors import ConfigError
+from attnlab.experiment import Experiment
+from attnlab.needs.base import Larder
+from attnlab.testing import config, run
+from attnlab.testing.build import reading
+
+EASY = {"train_episodes": 4, "max_cycles": 1150, "learner": "fixed_4", "curiosity": "none"}
+
+
+def test_larder_by_hand():
+    endless = Larder(reading())
+    for cycle in range(100):
+        endless.take(7, cycle)
+    assert endless.has(7, 100)
+    once = Larder(reading(food_supply="depletion", food_portions=2))
+    once.take(7, 10)
+    assert once.has(7, 11)
+    once.take(7, 20)
+    assert not once.has(7, 21) and not once.has(7, 1149) and once.has(8, 21)
+    again = Larder(reading(food_supply="respawn", food_portions=2, food_respawn_cycles=30))
+    again.take(7, 10)
+    again.take(7, 20)
+    assert [again.has(7, c) for c in (21, 49, 50)] == [False, False, True]
+    again.take(7, 60)
+    assert again.has(7, 61)  # full: two portions again
+
+
+def test_depleting_food_caps_the_meals_of_an_episode():
+    plenty = run(**EASY)["episodes"]
+    scarce = run(**EASY, how={"food_supply": "depletion", "food_portions": 1})["episodes"]
+    assert max(plenty["meals"]) > 1 and max(scarce["meals"]) == 1  # one cube of food in this world
+    assert max(plenty["drinks"]) > 1 and max(scarce["drinks"]) == 1
+    respawn = run(**EASY, how={"food_supply": "respawn", "food_portions": 1, "food_respawn_cycles": 150})["episodes"]
+    assert sum(scarce["meals"]) < sum(respawn["meals"]) < sum(plenty["meals"])
+
+
+def penalties(penalised):
+    """Penalty by behaviour and death of the training episodes of a robot that starves."""
+    tables = run(how={"penalised": penalised, "need_start": 1450.0, "food_reach_m": 0.01}, max_cycles=200,
+                 learner="fixed_1", curiosity="none", train_episodes=1, validation_episodes=0)
+    return tables["episodes"]["death"], dict(zip(tables["behaviours"]["behaviour"], tables["behaviours"]["penalty"],
+                                                 strict=True))
+
+
+def test_the_responsible_one_is_punished_or_all_are():
+    death, punished = penalties("responsible")
+    assert death == ["hunger"] and punished == {"avoid": 0.0, "eat": -1500.0, "drink": 0.0}
+    death, punished = penalties("all")
+    assert death == ["hunger"] and punished == dict.fromkeys(("avoid", "eat", "drink"), -1500.0)
+
+
+def test_rest_brings_a_need_and_a_way_to_die():
+    tables = run(behaviours=("avoid", "eat", "drink", "rest"), learner="fixed_12", curiosity="none", max_cycles=1150,
+                 train_episodes=1)
+    assert max(tables["cycles"]["fatigue"]) > 600.0 and "fatigue" not in tables["episodes"]["death"]
+    releases = dict(zip(tables["behaviours"]["behaviour"], tables["behaviours"]["releases"], strict=True))
+    assert releases["rest"] > 0
+    chosen = config(behaviours=("avoid", "rest"), learner="fixed_4", curiosity="none", max_cycles=1150,
+                    train_episodes=1, validation_episodes=0, needs="energy_only")
+    chosen["behaviours"]["rest"].update(recovery=0.001, deadly=700.0)
+    from attnlab.run import run_experiment
+    tables, _ = run_experiment(Experiment(chosen))
+    assert tables["episodes"]["death"] == ["fatigue"]
+    paid = dict(zip(tables["behaviours"]["behaviour"], tables["behaviours"]["penalty"], strict=True))
+    assert paid == {"avoid": 0.0, "rest": -1500.0}
+
+
+def test_a_need_that_nobody_brings_is_named():
+    with pytest.raises(ConfigError, match="nobody brings a need called 'hunger'"):
+        run(needs="energy_only")
+
+
+@pytest.mark.parametrize(("name", "lines"), [("rest", 40), ("wander", 40)])
+def test_a_new_behaviour_is_short(name, lines):
+    from pathlib import Path
+
+    from attnlab import registry
+    assert len(Path(registry.find("behaviours", name).origin).read_text().splitlines()) <= lines
