@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from math import pi
 from random import Random
 
@@ -11,6 +11,7 @@ from attnlab.errors import ConfigError
 from attnlab.geometry import Solid, clearance
 
 WALL_M = 0.1  # thickness of the walls around an arena, outside of its floor
+GRID_M = 0.05  # of the search for free starts
 
 
 @dataclass(frozen=True)
@@ -27,15 +28,15 @@ class Layout:
     start_clearance_m: float
     fixed_start: tuple[float, float, float] | None = None
 
-    @cached_property
-    def free_cells(self) -> list[tuple[float, float]]:
+    def free_points(self) -> Iterator[tuple[float, float]]:
         """Points of a 0.05 m grid over the start region that are clear of every solid."""
         x_min, x_max, y_min, y_max = self.start
-        xs = [x_min + (x_max - x_min) * i / (n or 1) for n in [max(0, round((x_max - x_min) / 0.05))]
-              for i in range(n + 1)]
-        ys = [y_min + (y_max - y_min) * i / (n or 1) for n in [max(0, round((y_max - y_min) / 0.05))]
-              for i in range(n + 1)]
-        return [(x, y) for x in xs for y in ys if clearance(x, y, self.solids) >= self.start_clearance_m]
+        nx, ny = (max(1, round((high - low) / GRID_M)) for low, high in ((x_min, x_max), (y_min, y_max)))
+        for i in range(nx + 1):
+            for j in range(ny + 1):
+                x, y = x_min + (x_max - x_min) * i / nx, y_min + (y_max - y_min) * j / ny
+                if clearance(x, y, self.solids) >= self.start_clearance_m:
+                    yield x, y
 
     def random_start(self, draw: Random) -> tuple[float, float, float]:
         """A free pose (x m, y m, heading rad): uniform over the start region less what is too near to a solid.
@@ -48,7 +49,7 @@ class Layout:
             if clearance(x, y, self.solids) >= self.start_clearance_m:
                 break
         else:
-            x, y = draw.choice(self.free_cells)
+            x, y = draw.choice(list(self.free_points()))
         return x, y, draw.uniform(-pi, pi)
 
     def steady_start(self) -> tuple[float, float, float]:
@@ -56,7 +57,7 @@ class Layout:
         if self.fixed_start is not None:
             return self.fixed_start
         x0, y0 = (self.start[0] + self.start[1]) / 2, (self.start[2] + self.start[3]) / 2
-        x, y = min(self.free_cells, key=lambda p: ((p[0] - x0) ** 2 + (p[1] - y0) ** 2, p))
+        x, y = min(self.free_points(), key=lambda p: ((p[0] - x0) ** 2 + (p[1] - y0) ** 2, p))
         return x, y, 0.0
 
 
@@ -69,7 +70,7 @@ def outer_walls(width_m: float, depth_m: float) -> list[Solid]:
 
 def check_start(layout: Layout) -> Layout:
     """The layout, or a ConfigError if the robot could not start anywhere."""
-    if not layout.free_cells:
+    if next(layout.free_points(), None) is None:
         raise ConfigError("start", f"no free start: every point of the start region is nearer than "
                           f"{layout.start_clearance_m} m to a box or wall", "Move a box, or widen start")
     if layout.fixed_start is not None:

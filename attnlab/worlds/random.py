@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from random import Random
 
 from attnlab.errors import ConfigError
-from attnlab.geometry import Solid, clearance, distance, overlap
+from attnlab.geometry import Solid, clearance, distance
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.streams import stream
@@ -44,19 +45,28 @@ class RandomLayout:
         kinds = ["food"] * p.food + ["water"] * p.water + ["obstacle"] * p.obstacles
         region = start_region(p.start, p.width_m, p.depth_m)
         for _ in range(p.tries):
-            boxes: list[Solid] = []
-            for kind in kinds:
-                for _ in range(50):
-                    box = Solid(kind, draw.uniform(p.size_m / 2, p.width_m - p.size_m / 2),
-                                draw.uniform(p.size_m / 2, p.depth_m - p.size_m / 2), p.size_m, p.size_m)
-                    if not any(overlap(box, other) for other in boxes):
-                        boxes.append(box)
-                        break
+            boxes = self._scatter(kinds, draw)
+            if boxes is None:
+                continue
             layout = Layout(p.width_m, p.depth_m, (*outer_walls(p.width_m, p.depth_m), *boxes), **region)
-            if len(boxes) == len(kinds) and solvable(layout):
+            if solvable(layout):
                 return check_start(layout)
         raise ConfigError("obstacles", f"no solvable layout of {len(kinds)} cubes in {p.width_m} x {p.depth_m} m after "
                           f"{p.tries} tries (seed {seed})", "Ask for fewer, or a larger floor")
+
+    def _scatter(self, kinds: list[str], draw: Random) -> list[Solid] | None:
+        """Cubes that do not overlap, or None if one found no place in 50 tries."""
+        p, boxes = self.params, []
+        for kind in kinds:
+            for _ in range(50):
+                x = draw.uniform(p.size_m / 2, p.width_m - p.size_m / 2)
+                y = draw.uniform(p.size_m / 2, p.depth_m - p.size_m / 2)
+                if not any(abs(x - b.x_m) < p.size_m and abs(y - b.y_m) < p.size_m for b in boxes):
+                    boxes.append(Solid(kind, x, y, p.size_m, p.size_m))
+                    break
+            else:
+                return None
+        return boxes
 
 
 def solvable(layout: Layout) -> bool:
@@ -79,7 +89,7 @@ def solvable(layout: Layout) -> bool:
         seen.add(cell)
         i, j = cell
         queue.extend(n for n in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)) if n in free and n not in seen)
-    if not starts <= seen or not layout.free_cells:
+    if not starts <= seen:
         return False
     return all(any(distance(*centre(cell), solid) <= ARRIVAL_M for cell in seen)
                for solid in layout.solids if solid.kind in ("food", "water"))
