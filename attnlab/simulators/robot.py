@@ -66,6 +66,10 @@ class Camera:
         """Bearing (rad, left positive) of a column coordinate (0 = left edge of the image)."""
         return atan2(self.columns / 2 - column, self.focal_px)
 
+    def column(self, bearing_rad: float) -> float:
+        """The column coordinate of a bearing."""
+        return self.columns / 2 - self.focal_px * tan(bearing_rad)
+
     def distance(self, height_px: float, bearing_rad: float, height_m: float = 0.5) -> float:
         """The distance proxy: how far from the centre a cube is whose blob is ``height_px`` tall (m)."""
         return self.focal_px * height_m / height_px / cos(bearing_rad)
