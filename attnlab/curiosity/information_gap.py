@@ -13,18 +13,21 @@ from attnlab.settings import setting
 @register("curiosity", "information_gap")
 class InformationGap(LitmanGap):
     """Loewenstein 1994 (Psychol. Bull. 116:75): wanting is the gap, the entropy H(a)/ln n of the percept model; liking
-    is how much this percept closes it, 1 - exp(-max(0, H(a) - H(a + 1_i))/scale), a_i = prior + views of i. The
-    squashing is ours. Memory: [a, the window], as in ``litman_gap``. Draws nothing at random."""
+    is how much this percept closes it, 1 - exp(-max(0, H(a) - H(a'))/scale), a_i = prior + views of i in the window and
+    a' the same after this one. The squashing is ours. Memory: [a, the window], as in ``litman_gap``. Draws nothing at
+    random."""
 
     @dataclass
     class Params(LitmanGap.Params):
         scale: float = setting(0.05, "reduction of entropy that gives a liking of 0.63", unit="nats", above=0)
 
     def reduction(self, memory, percept: int) -> float:
-        """H(a) - H(a + 1_i), nats; negative for a percept that makes the model less sure."""
-        beliefs = memory[0]
+        """H(a) - H(a'), nats; negative for a percept that makes the model less sure."""
+        beliefs, window = memory
         after = beliefs.copy()
         after[percept] += 1.0
+        if len(window) == self.params.length:
+            after[window[0]] -= 1.0
         return entropy(beliefs) - entropy(after)
 
     def liking(self, memory, percept: int) -> float:

@@ -83,6 +83,8 @@ def test_information_gap():
     model, memory = after("information_gap", [0] * 8, prior=1.0)
     assert model.reduction(memory, 1) < 0 and model.liking(memory, 1) == 0.0  # the model gets less sure
     assert model.liking(memory, 0) > 0
+    model, memory = after("information_gap", [0] * 10)
+    assert model.liking(memory, 0) == 0.0  # the window is full of it: nothing is left to learn
 
 
 def test_surprise_of_the_belief_in_the_science_notes():

@@ -1,0 +1,157 @@
+"""``python -m attnlab.appraise RUN --curiosity all``: what every model of curiosity makes of the same percepts.
+
+The percepts of a recorded episode, or of a standard probe, are shown to each model as they came; nothing is driven and
+nothing is learned from them but by the model. Writes ``appraisal.csv`` (a row a look and model), ``appraisal.md``
+and ``appraisal.png`` to the run's folder or --out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from attnlab import registry
+from attnlab.console import guarded
+from attnlab.curiosity.base import CuriosityContext
+from attnlab.errors import ConfigError, nearest
+from attnlab.reading import Reading
+from attnlab.streams import stream
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+NOT_A_SIGNAL = ("composed", "additive")  # litman's, unless their settings say otherwise
+
+
+@dataclass(frozen=True)
+class View:
+    """One look of one behaviour: percept from 0, energy in UoE, the pose (None in a probe), the sonar ring (m)."""
+    behaviour: str
+    cycle: int
+    percept: int
+    energy: float
+    pose: tuple[float, float, float] | None = None
+    ring: tuple[float, ...] | None = None
+
+
+class Replayed:
+    """The senses of a robot that is shown what it saw; sonars are read in the run's world at the recorded pose."""
+
+    def __init__(self, simulator: Any = None):
+        self.simulator, self.view, self.cycle = simulator, None, 0
+
+    def show(self, view: View) -> None:
+        self.view, self.cycle = view, view.cycle
+
+    def ring(self) -> list[float]:
+        from attnlab.simulators.robot import centre_distances
+        if self.view.ring is not None:
+            return list(self.view.ring)
+        if self.simulator is None:
+            raise ConfigError("curiosity", "this model reads sonars, and these views hold none")
+        self.simulator.place(*self.view.pose)
+        return centre_distances(self.simulator.sonar())
+
+
+def model(name: str, reading: Reading, now: Replayed) -> Any:
+    """A model of curiosity with its default settings."""
+    spec = registry.find("curiosity", name)
+    if spec is None:
+        raise registry.unknown("curiosity", name, "--curiosity")
+    context = CuriosityContext(reading, reading.percept_bins, stream(0, "appraise", name))
+    made = registry.make("curiosity", spec.nodes()[name], context)
+    made.attach(now)
+    return made
+
+
+def appraise(views: Sequence[View], names: Sequence[str], reading: Reading, simulator: Any = None) -> pd.DataFrame:
+    """A row for each view and model: behaviour, cycle, percept, curiosity, wanting, liking, level."""
+    import pandas as pd
+    rows = []
+    for name in names:
+        now = Replayed(simulator)
+        curiosity, memories = model(name, reading, now), {}
+        for view in views:
+            now.show(view)
+            memory = memories.setdefault(view.behaviour, curiosity.memory())
+            wanting = curiosity.wanting(memory, view.energy)
+            liking = curiosity.liking(memory, view.percept)
+            rows.append((view.behaviour, view.cycle, view.percept + 1, name, wanting, liking,
+                         curiosity.levels[curiosity.level(wanting, liking)]))
+            curiosity.observe(memory, view.percept)
+    return pd.DataFrame(rows, columns=["behaviour", "cycle", "percept", "curiosity", "wanting", "liking", "level"])
+
+
+def recorded(cycles: pd.DataFrame, behaviours: Sequence[str], energy_start: float,
+             start: tuple[float, float, float]) -> Iterator[View]:
+    """The views of an episode, in the order in which they came; energy and pose are those before the cycle."""
+    energies = [energy_start, *cycles["energy"].tolist()[:-1]]
+    poses = list(zip(cycles["x_m"], cycles["y_m"], cycles["heading_rad"], strict=True))
+    poses = [start, *poses[:-1]]
+    for i, cycle in enumerate(cycles["cycle"].tolist()):
+        for name in behaviours:
+            if cycles[f"{name}_active"].iat[i]:
+                yield View(name, cycle, int(cycles[f"{name}_percept"].iat[i]) - 1, energies[i], poses[i])
+
+
+def probes(bins: int, energy: float) -> dict[str, list[View]]:
+    """Standard histories of 200 views. The sonar ring shows the same as the percept."""
+    draw = Random(0)
+
+    def views(percepts: list[int]) -> list[View]:
+        rings = [(0.3 + 1.7 * p / max(1, bins - 1),) * 16 for p in range(bins)]
+        return [View("probe", i, p, energy, ring=rings[p]) for i, p in enumerate(percepts)]
+    return {"boredom": views([0] * 200), "a new object": views([0] * 100 + [bins - 1] * 100),
+            "a noisy sonar": views([draw.randrange(bins) for _ in range(200)]),
+            "a cycle": views([i % bins for i in range(200)])}
+
+
+def chosen(text: str) -> list[str]:
+    """Names of models from ``all`` or a list with commas."""
+    known = [option for spec in registry.parts.values() if spec.group == "curiosity"
+             for option in (spec.name, *spec.presets)]
+    if text == "all":
+        return sorted(set(known) - set(NOT_A_SIGNAL), key=lambda name: (name != "litman", name != "none", name))
+    names = text.split(",")
+    for name in names:
+        if name not in known:
+            raise ConfigError("--curiosity", f"no curiosity is called '{name}'", nearest(name, known))
+    return names
+
+
+def main(argv: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python -m attnlab.appraise",
+                                     description="Show the percepts of a run to models of curiosity.")
+    parser.add_argument("run", type=Path, help="folder of a complete run")
+    parser.add_argument("--curiosity", default="all", help="all, or names with commas between")
+    parser.add_argument("--out", type=Path, help="folder to write to; that of the run if left out")
+    given = parser.parse_args(argv)
+    registry.load_all()
+    names = chosen(given.curiosity)
+
+    from attnlab.appraisal import write
+    from attnlab.experiment import Experiment
+    from attnlab.fig1 import read_run
+    cycles, config = read_run(given.run)
+    experiment = Experiment(config)
+    reading, behaviours = experiment.reading, list(config["behaviours"])
+    views = list(recorded(cycles, behaviours, reading.energy_start,
+                          experiment.start_pose(cycles["phase"].iat[0], int(cycles["episode"].iat[0]))))
+    with experiment.simulator() as simulator:
+        table = appraise(views, names, reading, simulator)
+    standard = probes(reading.percept_bins, reading.energy_max)
+    probed = {probe: appraise(shown, names, reading) for probe, shown in standard.items()}
+    out = given.out or given.run
+    out.mkdir(parents=True, exist_ok=True)
+    for path in write(table, probed, names, out):
+        print(path)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(guarded(main))
