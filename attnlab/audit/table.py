@@ -43,6 +43,8 @@ class _File:
     settings: Settings = setting(Settings(), "")
     conditions: list[str] = setting([], "names of the columns")
     extrinsic_only: list[str] = setting([], "conditions whose rewards hold no intrinsic part")
+    above_well: list[str] = setting([], "conditions said to keep their energy above E_well")
+    episodes: int = setting(100, "episodes that the means are over", low=1)
     cells: dict = setting({}, "quantity -> condition -> [mean, sd]")
     undecided: list[Any] = setting([], "groups of cells that cannot be told apart")
     notes: list[str] = setting([], "")
@@ -56,6 +58,8 @@ class Table:
     settings: Settings
     conditions: list[str]
     extrinsic_only: list[str]
+    above_well: list[str]
+    episodes: int
     cells: dict[str, dict[str, Cell]]
     undecided: list[tuple[str, tuple[str, ...]]]
     notes: list[str]
@@ -107,8 +111,9 @@ def load_table(name: str | None = None) -> Table:
         raise ConfigError(f"{path.name}.cycles", "expected whole numbers of cycles with where each is said",
                           "cycles: {1150: the text}")
     cells = {str(q): _row(str(q), of, file.conditions, f"{path.name}.cells.{q}") for q, of in raw.items()}
-    return Table(file.title or path.stem, file.cycles, file.settings, file.conditions, file.extrinsic_only, cells,
-                 [_undecided(u, cells, f"{path.name}.undecided") for u in file.undecided], file.notes)
+    undecided = [_undecided(u, cells, f"{path.name}.undecided") for u in file.undecided]
+    return Table(file.title or path.stem, file.cycles, file.settings, file.conditions, file.extrinsic_only,
+                 file.above_well, file.episodes, cells, undecided, file.notes)
 
 
 def _row(quantity: str, of: Any, conditions: list[str], where: str) -> dict[str, Cell]:

@@ -106,9 +106,17 @@ def _draw(figure: Figure, conditions: Conditions, others: Conditions | None, jud
     write_bytes(target / "figures" / f"{figure.key}.png", png)
     write_bytes(target / "figures" / f"{figure.key}.svg", svg_bytes(drawn))
     plt.close(drawn)
-    number = re.match(r"Fig (\d+)", figure.title)
-    ids = [v.id for v in judged if number and re.search(rf"\bFig {number[1]}(?!\d)", v.claim.where)]
+    ids = [v.id for v in judged if _shows(figure, v)]
     return Shown(figure.key, figure.title, figure.paper, figure.say(conditions, *extra), png, ids)
+
+
+def _shows(figure: Figure, verdict: Verdict) -> bool:
+    """Does the figure show what a claim is about? By the place in the paper; policies by the measure."""
+    names = [p.part.measure if isinstance(p.part.measure, str) else p.part.measure["name"] for p in verdict.parts]
+    if any(name.startswith("policy") for name in names):
+        return figure.key == "policies"
+    number = re.match(r"Fig (\d+)", figure.title)
+    return number is not None and re.search(rf"\bFig {number[1]}(?!\d)", verdict.claim.where) is not None
 
 
 def _sections(claims: Claims, conditions: Conditions, judged: dict[str, list[Verdict]], target: Path) -> list[Section]:

@@ -13,7 +13,7 @@ from attnlab.audit.table import Cell, Table
 from attnlab.conditions import Conditions, Runs
 
 UNITS = {"energy": "UoE", "safety": "0-1", "hunger": "UoE", "thirst": "UoE", "reward": "UoR",
-         "activations": "in an episode", "active_cycles": "mc"}
+         "activations": "1", "active_cycles": "mc"}
 NAMES = {"energy_max": "energy, largest", "energy_min": "energy, smallest", "energy_mean": "energy, mean",
          "safety_max": "safety, largest", "safety_min": "safety, smallest", "safety_mean": "safety, mean",
          "hunger_mean": "hunger, mean", "thirst_mean": "thirst, mean",

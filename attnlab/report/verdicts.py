@@ -19,7 +19,7 @@ def _n(value: float, form: str = ".3g") -> str:
 def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
     """The table of all claims: what the paper says, the verdict, its numbers and its reason."""
     head = "".join(f"<th{' class=n' if n else ''}>{name}</th>" for name, n in (
-        ("claim", 0), ("verdict", 0), ("found, and why", 0), ("effect d", 1), ("p", 1), ("p, Holm", 1), ("seeds", 1)))
+        ("claim", 0), ("verdict", 0), ("found, and why", 0), ("effect d", 1), ("p", 1), ("Holm", 1), ("seeds", 1)))
     rows = []
     for v in verdicts:
         lead = v.lead
@@ -31,7 +31,7 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
             f"<td>{escape(v.reason)}.{asides}</td><td class=n>{_n(lead.effect, '.2f')}</td><td class=n>{_n(v.p)}</td>"
             f"<td class=n>{_n(v.p_holm)}</td><td class=n>{lead.seeds or '-'}</td></tr>")
     where = f"<p>For {escape(stratum)}.</p>" if stratum else ""
-    html = (f'{where}<div class="scroll"><table><thead><tr>{head}</tr></thead>'
+    html = (f'{where}<div class="scroll"><table class=claims><thead><tr>{head}</tr></thead>'
             f'<tbody>{"".join(rows)}</tbody></table></div>'
             "<p class=small>Differences are paired by seed; in brackets 95 % bootstrap intervals over seeds. Effect "
             "d: mean over standard deviation of the differences. p: sign-flip test, two-sided; of a claim with "
