@@ -141,7 +141,8 @@ def make(group: str, node: Mapping[str, Any], context: Any, where: str = "") -> 
 
 def plugin_folders() -> list[Path]:
     """Where drop-in parts live: shipped with the package, in the folder one works in, and in $ATTNLAB_PLUGINS."""
-    folders = [plugins_dir(), Path.cwd() / "plugins", *map(Path, os.environ.get("ATTNLAB_PLUGINS", "").split(os.pathsep))]
+    more = os.environ.get("ATTNLAB_PLUGINS", "").split(os.pathsep)
+    folders = [plugins_dir(), Path.cwd() / "plugins", *map(Path, more)]
     unique = dict.fromkeys(folder.resolve() for folder in folders if str(folder) not in ("", ".") and folder.is_dir())
     return list(unique)
 

@@ -108,7 +108,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
             columns = tables[name] or {column: [] for column in COLUMNS[name]}
             write_parquet(folder / f"{name}.parquet", columns, types)
         about.update(status="complete", cycles=cycles)
-    except Exception:  # a failed run is data: its traceback is stored, the sweep goes on
+    except Exception:  # noqa: BLE001  a failed run is data: its traceback is stored, the sweep goes on
         about.update(status="failed", error=traceback.format_exc())
     about.update(wall_s=round(time.perf_counter() - started, 3), cpu_s=round(time.process_time() - cpu, 3))
     write_json(folder / "run.json", about)

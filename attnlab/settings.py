@@ -53,7 +53,8 @@ def build(cls: type, node: Any, where: str) -> Any:
         return cls(**values)
     except ConfigError as error:
         inner = error.setting
-        raise ConfigError(f"{where}.{inner}" if where and inner else where or inner, error.problem, error.hint) from None
+        setting = ".".join(name for name in (where, inner) if name)
+        raise ConfigError(setting, error.problem, error.hint) from None
 
 
 def convert(value: Any, kind: Any, where: str) -> Any:

@@ -1,4 +1,4 @@
-"""Named random streams: every draw of a run comes from one of these, and each depends on the seed and its name alone."""
+"""Named random streams: every draw of a run comes from one; each depends on the seed and its name alone."""
 
 from __future__ import annotations
 

@@ -27,8 +27,8 @@ class Avoid(Behaviour):
         gain_rad_s: float = setting(0.8, "theta_max: turn of one sonar of weight 1", unit="rad/s", above=0)
         active_margin_m: float = setting(0.3, "a sonar is active when it hears something nearer to the centre than "
                                          "this beyond reading.stop_distance_m", unit="m", low=0)
-        blocked_margin_m: float = setting(0.2, "the way is blocked when one of the four foremost sonars hears something "
-                                          "nearer than this beyond reading.stop_distance_m", unit="m", low=0)
+        blocked_margin_m: float = setting(0.2, "the way is blocked when one of the four foremost sonars hears "
+                                          "something nearer than this beyond reading.stop_distance_m", unit="m", low=0)
         weights: list[float] = setting([0.2, 0.5, 0.8, 1.0], "of the sonars at 90, 50, 30, 10 degrees", low=0)
 
     def __init__(self, params: Params, context):

@@ -35,7 +35,8 @@ def claims_path(name: str) -> Path:
         if found.is_file():
             return found
     known = {file.stem for folder in claims_folders() for file in folder.glob("*.yaml")}
-    raise ConfigError(f"claims_file={name}", f"no claims file is called '{name}'", nearest(name, known) if known else "")
+    raise ConfigError(f"claims_file={name}", f"no claims file is called '{name}'",
+                      nearest(name, known) if known else "")
 
 
 def claims_hash(name: str) -> str:

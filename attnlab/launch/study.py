@@ -59,7 +59,8 @@ def make_job(config: dict[str, Any], overrides: Sequence[str], swept: Mapping[st
         build(LocalCluster, {k: v for k, v in settings.cluster.items() if k != "name"}, "cluster")
     if settings.claims_file:
         claims_path(settings.claims_file)
-    names = [_label(swept[key], key) for key in sorted(swept if named is None else named)] or [config["curiosity"]["name"]]
+    names = [_label(swept[key], key) for key in sorted(swept if named is None else named)]
+    names = names or [config["curiosity"]["name"]]
     condition = " ".join(str(settings.labels.get(name, name)) for name in names)
     stem = re.sub(r"[^A-Za-z0-9_.+-]+", "_", "_".join(names)).strip("._")[:80]
     key = run_key(config)

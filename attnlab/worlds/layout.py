@@ -79,8 +79,8 @@ class WrittenLayout:
             for i, solid in enumerate(solids):
                 if any(not (-1e-9 <= x <= p.width_m + 1e-9 and -1e-9 <= y <= p.depth_m + 1e-9)
                        for x, y in solid.corners()):
-                    raise ConfigError(f"{group}[{i}]", f"the {solid.kind} at ({solid.x_m}, {solid.y_m}) reaches outside "
-                                      f"the floor of {p.width_m} x {p.depth_m} m")
+                    raise ConfigError(f"{group}[{i}]", f"the {solid.kind} at ({solid.x_m}, {solid.y_m}) reaches "
+                                      f"outside the floor of {p.width_m} x {p.depth_m} m")
         for (i, one), (j, two) in combinations(enumerate(boxes), 2):
             if overlap(one, two):
                 raise ConfigError(f"boxes[{j}]", f"the {two.kind} at ({two.x_m}, {two.y_m}) overlaps boxes[{i}], the "
