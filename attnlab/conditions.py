@@ -44,8 +44,9 @@ class Runs:
         config = self.config(min(self.runs))
         names = {field.name for field in dataclasses.fields(Reading)}
         known = {k: v for k, v in (config.get("reading") or {}).items() if k in names}
-        return dataclasses.replace(Reading(), **known, **({"max_cycles": config["max_cycles"]}
-                                                          if config.get("max_cycles") else {}))
+        if config.get("max_cycles"):
+            known["max_cycles"] = config["max_cycles"]
+        return dataclasses.replace(Reading(), **known)
 
     def setting(self, name: str, seed: int | None = None) -> Any:
         """A setting by its dotted name from the first (or the given) run; None if there is none."""
@@ -162,6 +163,9 @@ class Conditions:
         return self.labels.get(curiosity, curiosity)
 
     def stratum_name(self, stratum: tuple[str, ...]) -> str:
+        """What sets a combination apart: setting=value for a few settings, a number for many."""
+        if len(self.settings) > 5:
+            return f"combination {self.strata.index(stratum) + 1}"
         return ", ".join(f"{name}={value}" for name, value in zip(self.settings, stratum, strict=True))
 
     def rows(self, table: str, runs: Mapping[int, str], equal: Mapping[str, Any]) -> pd.DataFrame:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,8 +12,8 @@ from attnlab.launch.progress import Display
 from attnlab.launch.study import Job, split
 
 
-def drive(jobs: Sequence[Job]) -> int:
-    """Run a study; 0 if all of it is complete now, 1 if a run failed."""
+def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
+    """Run a study; 0 if all of it is complete now, 1 if a run failed. ``typed``: the arguments that asked for it."""
     first = jobs[0].config
     todo, done, reasons = split(jobs, first["fresh"])
     folder = jobs[0].folder.parent
@@ -31,7 +32,7 @@ def drive(jobs: Sequence[Job]) -> int:
         with Display(len(todo), episodes) as display:
             run_jobs(todo, at_once, display)
         failed = display.failed
-    _show(folder, jobs, first)
+    _show(folder, jobs, first, typed)
     for job, why in failed[:10]:
         print(f"failed: {job.folder}: {why}", file=sys.stderr)
     if failed:
@@ -40,15 +41,34 @@ def drive(jobs: Sequence[Job]) -> int:
     return 1 if failed else 0
 
 
-def _show(folder: Path, jobs: Sequence[Job], config: dict) -> None:
+def _show(folder: Path, jobs: Sequence[Job], config: dict, typed: Sequence[str]) -> None:
+    """Figures, summary and hints of what is complete."""
     from attnlab.results.load import Study
     from attnlab.results.summary import print_summary
     study = Study(folder)
     names = {job.run for job in jobs}
     if not any(run in names for run in study.complete):
         return
-    picture = None
+    made: dict[str, Path] = {}
     if config["picture"]:
         from attnlab.report import survival_picture
-        picture = survival_picture(folder)
-    print_summary(study, names, picture)
+        made["picture"] = survival_picture(folder)
+    if config["report"]:
+        made["report"] = _report(folder, config)
+    hints = {} if config["report"] else {"next": f"python -m attnlab.report {shlex.quote(str(folder))}"}
+    if config["simulator"]["name"] == "planar":
+        again = [argument for argument in typed if not argument.startswith(("simulator=", "study="))]
+        hints["on pybullet"] = shlex.join(["python", "-m", "attnlab", *again, "simulator=pybullet",
+                                           f"study={folder.name}_pybullet"])
+    print_summary(study, names, {k: v for k, v in made.items() if v}, hints)
+
+
+def _report(folder: Path, config: dict) -> Path | None:
+    """The study's page. A report that cannot be made loses no result: it says why and how to try again."""
+    from attnlab.report import build_report
+    try:
+        return build_report(folder, claims=config["claims_file"], quiet=True)
+    except Exception as cause:  # noqa: BLE001  whatever a measure or figure raises, the results are there
+        print(f"no report: {type(cause).__name__}: {cause}. python -m attnlab.report {folder} shows where",
+              file=sys.stderr)
+    return None

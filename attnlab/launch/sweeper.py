@@ -47,7 +47,7 @@ class StudySweeper(Sweeper):
         from attnlab.launch.drive import drive
         jobs, swept = self.jobs(arguments)
         check_place(jobs)
-        type(self).exit_code = drive(jobs)
+        type(self).exit_code = drive(jobs, arguments)
 
     def jobs(self, arguments: Sequence[str]) -> tuple[list[Job], list[str]]:
         """All jobs of the sweep, checked, and the names of the swept settings (but seed)."""

@@ -10,6 +10,7 @@ import numpy as np
 from attnlab.attention import Attention
 from attnlab.cycle import Agent
 from attnlab.equations import safety as safety_at
+from attnlab.guards import check_commands, check_log
 from attnlab.identities import check_clock, check_safety
 from attnlab.results.schema import CELL_M
 from attnlab.worlds.base import Layout
@@ -53,7 +54,9 @@ class Recorder:
         path = agent.simulator.trace[:n + 1]
         steps = np.diff(path[:, :2], axis=0)
         if self.check:
+            check_commands(agent)
             for attention in agent.attentions:
+                check_log(attention)
                 check_clock([a.cycle for a in attention.log], [a.period for a in attention.log], n)
         means = {f"{name}_{what}": float(values.mean() if what == "mean" else values.max())
                  for name, values in needs.items() for what in ("mean", "max")}

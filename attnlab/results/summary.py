@@ -45,8 +45,9 @@ def conditions(study: Study) -> dict[str, str]:
     return found
 
 
-def print_summary(study: Study, runs: set[str], picture: Path | None) -> None:
-    """Print the table, where everything is, and what to type next."""
+def print_summary(study: Study, runs: set[str], made: dict[str, Path], hints: dict[str, str]) -> None:
+    """Print the table, where everything is (``made``: what -> path), and what to type next (``hints``: why ->
+    command)."""
     from rich.console import Console
     from rich.table import Table
     frame = summary_frame(study, runs)
@@ -64,10 +65,10 @@ def print_summary(study: Study, runs: set[str], picture: Path | None) -> None:
                       f"{row['thirst']:.0f}", f"{row['energy']:.0f}", f"{row['safety']:.2f}", row["activations"])
     console = Console(width=None if _is_terminal() else 110)
     console.print(table)
-    print(f"results  {study.path}")
-    if picture:
-        print(f"picture  {picture}")
-    print(f"next     python -m attnlab.report {study.path}")
+    lines = {"results": study.path, **made, **hints}
+    width = max(map(len, lines))
+    for what, where in lines.items():
+        print(f"{what:{width}}  {where}")
 
 
 def _is_terminal() -> bool:
