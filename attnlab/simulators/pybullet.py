@@ -86,14 +86,16 @@ class PyBullet(Simulator):
         p.setGravity(0, 0, -9.81, physicsClientId=c)
         if self._wheels:
             add_floor(p, c)
-        else:  # remember no contact point of an earlier pose: contact depends on the pose alone
-            p.setPhysicsEngineParameter(contactBreakingThreshold=1e-6, physicsClientId=c)
         self._cubes, self._surfaces = add_solids(p, c, self.layout, self.params.gui)
         self._robot, self._base_z, self._joints = add_robot(p, c, self._wheels, self.params.gui)
 
     def place(self, x: float, y: float, heading: float) -> None:
         if self._wheels:  # contacts with the floor would be remembered; kinematic motion has no memory but the pose
             self._build()
+        # A kinematic robot remembers no contact point of an earlier pose, so that contact depends on the pose alone.
+        # Bullet keeps this setting for the whole process, so it is made anew for every episode.
+        self._p.setPhysicsEngineParameter(contactBreakingThreshold=0.02 if self._wheels else 1e-6,
+                                          physicsClientId=self._client)
         self.cycle = 0
         self._set_pose(x, y, heading)
         self.trace[0] = self._pose
