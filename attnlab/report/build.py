@@ -14,7 +14,7 @@ from attnlab.claims.judge import Verdict, judge
 from attnlab.conditions import Conditions
 from attnlab.errors import ConfigError
 from attnlab.measures.rewards import Reward
-from attnlab.report import curves, economics, episode, found, policies, provenance, space, table5, verdicts
+from attnlab.report import curves, economics, episode, found, multiverse, policies, provenance, space, table5, verdicts
 from attnlab.report.page import Section, Shown, page, table
 from attnlab.report.style import drawing, png_bytes, svg_bytes
 from attnlab.results.files import write_bytes
@@ -85,6 +85,9 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str, base
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
         shown = [_draw(figure, conditions, others, first, target) for figure in FIGURES] if conditions.strata else []
         sections = _sections(claims, conditions, judged, target)
+        if len(judged) >= multiverse.LEAST_READINGS:
+            more, section = _multiverse(multiverse.analyse(conditions, judged), target)
+            shown, sections = more + shown, [section, *sections]
     sections.append(provenance.commands(study, conditions))
     notes = provenance.notes(study, conditions, claims)
     if not conditions.strata:
@@ -99,15 +102,20 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str, base
 
 def _draw(figure: Figure, conditions: Conditions, others: Conditions | None, judged: list[Verdict],
           target: Path) -> Shown:
-    import matplotlib.pyplot as plt
     extra = (others,) if figure.key == "attention_economics" else ()
-    drawn = figure.draw(conditions, *extra)
-    png = png_bytes(drawn)
-    write_bytes(target / "figures" / f"{figure.key}.png", png)
-    write_bytes(target / "figures" / f"{figure.key}.svg", svg_bytes(drawn))
-    plt.close(drawn)
+    png = _save(figure.draw(conditions, *extra), figure.key, target)
     ids = [v.id for v in judged if _shows(figure, v)]
     return Shown(figure.key, figure.title, figure.paper, figure.say(conditions, *extra), png, ids)
+
+
+def _save(drawn, key: str, target: Path) -> bytes:
+    """Write a figure as PNG and SVG, close it, return the PNG."""
+    import matplotlib.pyplot as plt
+    png = png_bytes(drawn)
+    write_bytes(target / "figures" / f"{key}.png", png)
+    write_bytes(target / "figures" / f"{key}.svg", svg_bytes(drawn))
+    plt.close(drawn)
+    return png
 
 
 def _shows(figure: Figure, verdict: Verdict) -> bool:
@@ -137,11 +145,32 @@ def _sections(claims: Claims, conditions: Conditions, judged: dict[str, list[Ver
                  "over the episodes of all seeds. † The paper's text does not tell which of two cells this is.</p>")
         sections.append(Section("table5", "Table 5, side by side", html))
     if len(judged) > 1:
+        write_bytes(target / "combinations.csv", multiverse.combinations_csv(conditions, judged))
         sections.append(verdicts.matrix(judged))
-    for place, (name, of) in enumerate(list(judged.items())[:1]):
-        section = verdicts.section(of, name)
-        sections.append(section if place == 0 else Section(f"claims{place}", section.title, section.html))
+    for name, of in list(judged.items())[:1]:
+        sections.append(verdicts.section(of, name))
     return sections
+
+
+def _multiverse(found: multiverse.Multiverse, target: Path) -> tuple[list[Shown], Section]:
+    """The figures and the section of a study of many readings."""
+    write_bytes(target / "effects.csv", multiverse.effects_csv(found))
+    best = max(range(len(found.ids)), key=lambda i: (found.share(i)[0] if found.share(i)[3] else -1.0, -i))
+    said = f"{found.ids[best]} ({found.titles[best]}) holds most often, in {100 * found.share(best)[0]:.0f} % of the " \
+           "readings that can test it."
+    clear = [e for e in found.effects if e.clear]
+    moved = max(clear, key=lambda e: abs(e.difference), default=None)
+    most = "No reading moves a claim clearly." if moved is None else \
+        f"{moved.factor}={moved.level} moves {moved.claim} most, by {100 * moved.difference:+.0f} percent points."
+    shown = []
+    for key, title, draw, text in (
+            ("multiverse_shares", "In how many readings each claim holds", multiverse.shares, said),
+            ("multiverse_effects", "Which reading moves which claim", multiverse.effects_map, most)):
+        drawn = draw(found)
+        png = _save(drawn, key, target)
+        shown.append(Shown(key, title, "Each open point of the text may be read in several ways; the paper ran one.",
+                           text, png))
+    return shown, multiverse.section(found)
 
 
 def _escape(text: str) -> str:
