@@ -14,6 +14,7 @@ from attnlab.curiosity.base import CuriosityContext
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError
 from attnlab.exploration.base import Exploration
+from attnlab.guards import blame
 from attnlab.learners.base import LearnerContext
 from attnlab.reading import Reading
 from attnlab.settings import build, setting
@@ -131,7 +132,7 @@ class Experiment:
         except ConfigError:
             raise
         except Exception as cause:
-            raise ConfigError(*_blame(cause)) from cause
+            raise ConfigError(blame(cause), registry.describe(cause), "The part could not be constructed") from cause
         simulator = self.simulator_spec[0].name
         for attention in agent.attentions:
             works_in = attention.behaviour.simulators
@@ -183,11 +184,3 @@ class Experiment:
 class _NoSimulator:
     """Stands in for a simulator while parts are only constructed."""
     cycle = 0
-
-
-def _blame(cause: BaseException) -> tuple[str, str, str]:
-    """(setting, problem, hint) for an exception out of a part's constructor: the innermost plugin or part file."""
-    import traceback
-    frames = [f for f in traceback.extract_tb(cause.__traceback__) if "attnlab" in f.filename or "plugin" in f.filename]
-    where = f"{frames[-1].filename}:{frames[-1].lineno}" if frames else "a part"
-    return where, registry.describe(cause), "The part could not be constructed"

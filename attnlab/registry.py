@@ -30,6 +30,7 @@ GROUPS = {  # folder of conf/ -> package of attnlab that holds the built-in part
     "simulator": "simulators", "world": "worlds", "behaviours": "behaviours", "needs": "needs", "fusion": "fusion",
     "curiosity": "curiosity", "learner": "learners", "exploration": "exploration", "measure": "measures",
 }
+NO_OPTION = ("measure",)  # parts of a report: configured in a claims file, where parameters may be required
 ENTRY_POINTS = "attnlab.plugins"
 
 
@@ -71,16 +72,34 @@ def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] 
         origin = inspect.getsourcefile(cls) or cls.__module__
         if group not in GROUPS:
             raise ValueError(f"{origin}: there is no group '{group}'. {nearest(group, GROUPS)}")
-        params = getattr(cls, "Params", NoParams)
-        if not dataclasses.is_dataclass(params):
-            raise TypeError(f"{origin}: {cls.__name__}.Params must be a dataclass with typed fields")
+        check_params(group, cls, origin)
         for option in (name, *(presets or {})):
             old = find(group, option)
-            if old is not None and (old.cls.__module__, old.cls.__qualname__) != (cls.__module__, cls.__qualname__):
+            if old is not None and old.cls is not cls:
                 raise ValueError(f"{origin}: {group} '{option}' is already registered by {old.origin}")
         parts[group, name] = Spec(group, name, cls, presets or {}, origin)
         return cls
     return door
+
+
+def check_params(group: str, cls: type, origin: str) -> None:
+    """Raise TypeError unless the parameters of a part are a dataclass of typed fields whose defaults are valid."""
+    params = getattr(cls, "Params", NoParams)
+    if not dataclasses.is_dataclass(params):
+        raise TypeError(f"{origin}: {cls.__name__}.Params must be a dataclass with typed fields")
+    for name, value in vars(params).items():
+        if not (name.startswith("_") or callable(value) or name in params.__annotations__
+                or isinstance(value, (property, staticmethod, classmethod))):
+            raise TypeError(f"{origin}: parameter '{name}' of {cls.__name__} has no type: write {name}: float = ...")
+    if group in NO_OPTION:
+        return
+    for field in dataclasses.fields(params):
+        if field.default is field.default_factory is dataclasses.MISSING:
+            raise TypeError(f"{origin}: parameter '{field.name}' of {cls.__name__} has no default")
+    try:
+        settings.build(params, settings.defaults_of(params), group)
+    except (ConfigError, NameError) as cause:
+        raise TypeError(f"{origin}: {cls.__name__}'s parameters do not accept their own defaults: {cause}") from None
 
 
 def find(group: str, option: str) -> Spec | None:

@@ -14,6 +14,7 @@ from attnlab import __version__
 from attnlab.cycle import Agent, machine_cycle
 from attnlab.experiment import Experiment
 from attnlab.exploration.base import Exploration
+from attnlab.guards import PartError, diagnose, verdict
 from attnlab.identities import check_balance
 from attnlab.results.files import write_bytes, write_json, write_parquet
 from attnlab.results.record import Event, Recorder
@@ -55,7 +56,7 @@ def run_experiment(experiment: Experiment, run: str = "run", swept: Mapping[str,
     phases = [("train", s.train_episodes), ("validation", s.validation_episodes)]
     last = max(i for i, (_, episodes) in enumerate(phases) if episodes)
     experiment.prepare(folder)
-    simulator = experiment.simulator()
+    simulator, agent = experiment.simulator(), None
     try:
         agent = experiment.agent(simulator)
         for index, (phase, episodes) in enumerate(phases):
@@ -76,6 +77,12 @@ def run_experiment(experiment: Experiment, run: str = "run", swept: Mapping[str,
                 if progress:
                     progress(done, cycles)
         return recorder.finish(agent), cycles
+    except PartError:
+        raise
+    except Exception:
+        if agent is not None:
+            diagnose(agent)  # raises, and names the part, if one gave what it must not
+        raise
     finally:
         simulator.close()
 
@@ -108,8 +115,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
             columns = tables[name] or {column: [] for column in COLUMNS[name]}
             write_parquet(folder / f"{name}.parquet", columns, types)
         about.update(status="complete", cycles=cycles)
-    except Exception:  # noqa: BLE001  a failed run is data: its traceback is stored, the sweep goes on
-        about.update(status="failed", error=traceback.format_exc())
+    except Exception as cause:  # noqa: BLE001  a failed run is data: its traceback is stored, the sweep goes on
+        about.update(status="failed", error=f"{traceback.format_exc()}\n{verdict(cause)}\n")
     about.update(wall_s=round(time.perf_counter() - started, 3), cpu_s=round(time.process_time() - cpu, 3))
     write_json(folder / "run.json", about)
     return about["status"] == "complete"
