@@ -73,7 +73,8 @@ def add_robot(p, client: int, wheels: bool, visible: bool) -> tuple[int, float, 
     height = 0.15
     base_z = CLEAR_M + height / 2
     base = p.createCollisionShape(p.GEOM_CYLINDER, radius=RADIUS_M, height=height, physicsClientId=client)
-    look = p.createVisualShape(p.GEOM_CYLINDER, radius=RADIUS_M, length=height, rgbaColor=(0.75, 0.1, 0.1, 1),
+    # What is nearer than 0.2 m is cut off in the camera image: a narrower look does not get into it.
+    look = p.createVisualShape(p.GEOM_CYLINDER, radius=0.19, length=height, rgbaColor=(0.75, 0.1, 0.1, 1),
                                physicsClientId=client) if visible else -1
     if not wheels:
         body = p.createMultiBody(1, base, look, (0, 0, base_z), physicsClientId=client)
