@@ -63,6 +63,7 @@ class Spec:
 
 parts: dict[tuple[str, str], Spec] = {}
 failures: dict[str, tuple[str, BaseException]] = {}  # module or entry point -> (file, what it raised)
+_packages: list[str] = []  # modules of entry points
 _loaded = False
 
 
@@ -159,16 +160,18 @@ def make(group: str, node: Mapping[str, Any], context: Any, where: str = "") -> 
 
 
 def plugin_folders() -> list[Path]:
-    """Where drop-in parts live: shipped with the package, in the folder one works in, and in $ATTNLAB_PLUGINS."""
+    """Where drop-in parts live: in the folder one works in, in $ATTNLAB_PLUGINS, and those shipped as examples."""
     more = os.environ.get("ATTNLAB_PLUGINS", "").split(os.pathsep)
-    folders = [plugins_dir(), Path.cwd() / "plugins", *map(Path, more)]
+    folders = [Path.cwd() / "plugins", *map(Path, more), plugins_dir()]
     unique = dict.fromkeys(folder.resolve() for folder in folders if str(folder) not in ("", ".") and folder.is_dir())
     return list(unique)
 
 
 def config_folders() -> list[Path]:
-    """Folders beside plugins that may hold config groups (a world, an experiment): found by Hydra after ours."""
-    return plugin_folders()
+    """Folders that may hold config groups (a world, an experiment), found by Hydra after ours: plugins/ folders, and
+    ``conf`` beside the module of a pip package's entry point. Call after :func:`load_all`."""
+    beside = [Path(sys.modules[module].__file__).parent / "conf" for module in _packages]
+    return [*plugin_folders(), *(folder for folder in beside if folder.is_dir())]
 
 
 def load_all() -> None:
@@ -182,24 +185,30 @@ def load_all() -> None:
         for module in pkgutil.iter_modules(package.__path__):
             importlib.import_module(f"attnlab.{package_name}.{module.name}")
     plugins = importlib.import_module("attnlab.plugins")
-    for folder in plugin_folders():
-        if str(folder) not in plugins.__path__:
-            plugins.__path__.append(str(folder))
+    folders = plugin_folders()
+    plugins.__path__.extend(str(folder) for folder in folders if str(folder) not in plugins.__path__)
+    mine = {file.name for folder in folders if folder != plugins_dir() for file in folder.glob("*.py")}
+    for folder in folders:
         for file in sorted(folder.glob("*.py")):
-            if not file.name.startswith("_"):
+            replaced = folder == plugins_dir() and file.name in mine  # a file of one's own instead of our example
+            if not file.name.startswith("_") and not replaced:
                 _load(f"attnlab.plugins.{file.stem}", str(file))
     from importlib.metadata import entry_points
     for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda p: p.name):
-        _load(point.value.partition(":")[0], f"entry point {point.name} ({point.value})", point.name)
+        module = point.value.partition(":")[0]
+        if _load(module, f"entry point {point.name} ({point.value})", point.name):
+            _packages.append(module)
 
 
-def _load(module: str, origin: str, alias: str | None = None) -> None:
+def _load(module: str, origin: str, alias: str | None = None) -> bool:
     before = dict(parts)
     try:
         if module in sys.modules and not alias and sys.modules[module].__file__ != origin:
             raise ImportError(f"another plugin file has the same name: {sys.modules[module].__file__}")
         importlib.import_module(module)
+        return True
     except (Exception, SystemExit) as cause:  # noqa: BLE001  a plugin may raise anything; it is kept, and shown
         parts.clear()
         parts.update(before)
         failures[alias or module] = (origin, cause)
+        return False

@@ -1,0 +1,83 @@
+"""A package somebody else wrote: found by its entry point, with its own conf, in worker processes too."""
+
+import shutil
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1] / "thirdparty_plugin"
+ROOT = PACKAGE.parents[1]
+IN_A_POOL = """
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from attnlab.testing import run
+
+def survival(seed):
+    return run(seed=seed, curiosity="weekly", behaviours=("avoid", "patrol"))["episodes"]["survival"]
+
+if __name__ == "__main__":
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        assert list(pool.map(survival, range(2))) == [survival(0), survival(1)]
+    print("same in workers")
+"""
+
+
+def installed_by_hand(site: Path) -> str:
+    """The package and what pip would write of its entry point, in a folder for PYTHONPATH."""
+    shutil.copytree(PACKAGE / "src", site, dirs_exist_ok=True)
+    info = site / "attnlab_example-0.1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: attnlab-example\nVersion: 0.1.0\n")
+    (info / "entry_points.txt").write_text("[attnlab.plugins]\nexample = attnlab_example\n")
+    return f"{ROOT}:{site}"
+
+
+def check(python, place, seeds=2):
+    """The parts are listed, a sweep over them in worker processes is complete, a pool of processes finds them."""
+    listed = python("-m", "attnlab.parts")
+    rows = {line.split()[0]: line for line in listed.stdout.splitlines() if line.startswith("  ")}
+    assert "package" in rows["weekly"] and "package" in rows["patrol"], listed.stdout + listed.stderr
+    done = python("-m", "attnlab", "+experiment=island", "-m", f"seed=0-{seeds - 1}", "simulator=planar", "train_episodes=2",
+                  "validation_episodes=1", "max_cycles=60", "picture=false", "report=false")
+    assert done.returncode == 0, done.stdout + done.stderr
+    runs = place.runs()
+    assert set(runs) == {"weekly", "litman", "none"}
+    assert len(list(place.path.glob("outputs/island/*/policy.parquet"))) == 3 * seeds
+    (place.path / "pool.py").write_text(IN_A_POOL)
+    pooled = python("pool.py")
+    assert "same in workers" in pooled.stdout, pooled.stderr
+
+
+def test_a_package_is_found_by_its_entry_point(place, tmp_path):
+    path = installed_by_hand(tmp_path / "site")
+    check(lambda *arguments: place.python(*arguments, PYTHONPATH=path), place, seeds=1)
+    unknown = place.python("-m", "attnlab", "world=iland", PYTHONPATH=path)
+    assert unknown.returncode == 2 and "island" in unknown.stderr
+
+
+def test_a_package_that_does_not_load_is_named_with_its_entry_point(place, tmp_path):
+    path = installed_by_hand(tmp_path / "site")
+    (tmp_path / "site" / "attnlab_example" / "weekly.py").write_text("import nothing_there\n")
+    listed = place.python("-m", "attnlab.parts", PYTHONPATH=path)
+    line = listed.stdout.partition("failed to load")[2]
+    assert "entry point example (attnlab_example): ModuleNotFoundError: No module named 'nothing_there'" in line
+    assert "patrol" not in listed.stdout  # nothing of a package that failed halfway
+
+
+@pytest.mark.long
+def test_pip_installs_it_into_a_fresh_environment(place, tmp_path):
+    import subprocess
+    home = tmp_path / "fresh"
+    subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
+    python = home / "bin" / "python"
+    site = next(home.glob("lib/python*/site-packages"))
+    (site / "shared.pth").write_text(sysconfig.get_paths()["purelib"] + "\n")  # spares it numba and pybullet again
+    subprocess.run([str(python), "-m", "pip", "install", "-q", str(ROOT), str(PACKAGE)], check=True, cwd=tmp_path)
+
+    def run(*arguments):
+        return subprocess.run([str(python), *arguments], cwd=place.path, capture_output=True, text=True, timeout=600)
+    check(run, place)
+    where = run("-c", "import attnlab, attnlab_example; print(attnlab.__file__, attnlab_example.__file__)")
+    assert where.stdout.count(str(home)) == 2

@@ -1,0 +1,5 @@
+"""Parts for attnlab from a package of its own: importing it registers them."""
+
+from attnlab_example import patrol, weekly
+
+__all__ = ["patrol", "weekly"]
