@@ -62,7 +62,7 @@ class Conditions:
 
     def __init__(self, study: Study, labels: Mapping[str, str] | None = None):
         self.study, self.notes = study, []
-        self.configs = {run: _config(study, run) for run in study.complete}
+        self.configs = {run: study.config(run) for run in study.complete}
         self.configs = {run: config for run, config in self.configs.items() if config is not None}
         for run in sorted(set(study.complete) - set(self.configs)):
             self.notes.append(f"run {run} is left out: its config.yaml is missing or unreadable")
@@ -202,17 +202,7 @@ class Conditions:
 
     def frame(self, table: str) -> pd.DataFrame:
         """A whole table; of ``cycles`` only the last recorded episode of each run is read."""
-        return self.study.last_cycles if table == "cycles" else getattr(self.study, table)
-
-
-def _config(study: Study, run: str) -> dict | None:
-    import yaml
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    try:
-        content = yaml.load((study.path / run / "config.yaml").read_text(), loader)  # noqa: S506  a safe loader
-    except (OSError, ValueError, yaml.YAMLError):
-        return None
-    return content if isinstance(content, dict) else None
+        return self.study.plain(table)
 
 
 def _dig(node: Any, name: str) -> Any:

@@ -67,6 +67,8 @@ class Study:
         self._states = {folder.name: state_of(folder) for folder in sorted(path.iterdir())
                         if folder.is_dir() and _looks_like_run(folder)}
         self._broken: dict[str, str] = {}
+        self._configs: dict[str, dict | None] = {}
+        self._plain: dict[str, pd.DataFrame] = {}
 
     @cached_property
     def runs(self) -> pd.DataFrame:
@@ -100,6 +102,34 @@ class Study:
         """run.json of a run; empty if it has none."""
         return self._states[run][2]
 
+    def config(self, run: str) -> dict | None:
+        """The resolved config of a run; None if it is missing or unreadable."""
+        if run not in self._configs:
+            import yaml
+            try:
+                text = (self.path / run / "config.yaml").read_text()
+                content = yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+            except (OSError, ValueError, yaml.YAMLError):
+                content = None
+            self._configs[run] = content if isinstance(content, dict) else None
+        return self._configs[run]
+
+    def plain(self, table: str) -> pd.DataFrame:
+        """A table without the columns of swept settings, and of ``cycles`` only each run's last recorded episode: what
+        the report reads, small however much was swept or recorded."""
+        if table not in self._plain:
+            swept = set(self.swept)
+
+            def cut(found: pa.Table) -> pa.Table:
+                found = found.drop_columns([name for name in found.column_names if name in swept])
+                found = _last_episode(found) if table == "cycles" else found
+                for place, name in enumerate(found.column_names):
+                    if name in ("run", "phase"):
+                        found = found.set_column(place, name, found.column(name).dictionary_encode())
+                return found
+            self._plain[table] = self._table(table, cut)
+        return self._plain[table]
+
     def _table(self, table: str, cut: Callable[[pa.Table], pa.Table] | None = None) -> pd.DataFrame:
         """Rows of all complete runs, of each what ``cut`` leaves. Arrow tables are joined before pandas sees them."""
         import pandas as pd
@@ -114,7 +144,7 @@ class Study:
                 self.__dict__.pop("runs", None)
                 continue
             found = found if cut is None else cut(found)
-            if "episode" in found.column_names and table != "cycles":
+            if cut is None and "episode" in found.column_names and table != "cycles":
                 for setting in self.swept:
                     if setting not in found.column_names:
                         value = pa.array([self._setting(name, setting)] * len(found))
@@ -125,8 +155,7 @@ class Study:
 
     def _setting(self, run: str, setting: str):
         """A setting of a run that was not swept when it ran, from its config."""
-        import yaml
-        node = yaml.safe_load((self.path / run / "config.yaml").read_text())
+        node = self.config(run)
         for part in setting.split("."):
             node = node.get(part) if isinstance(node, dict) else None
         return node.get("name") if isinstance(node, dict) else node
@@ -146,11 +175,6 @@ class Study:
     @cached_property
     def cycles(self) -> pd.DataFrame:
         return self._table("cycles")
-
-    @cached_property
-    def last_cycles(self) -> pd.DataFrame:
-        """``cycles`` of the last recorded episode of each run alone: small, however much was recorded."""
-        return self._table("cycles", _last_episode)
 
     @cached_property
     def coverage(self) -> pd.DataFrame:
