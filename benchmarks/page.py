@@ -48,11 +48,11 @@ def page(found: dict[str, Any], source: str) -> str:
     reads = found["reads_a_cycle"]
     lines += [
         "", "A whole loop is AVOID, EAT and DRINK with Litman's curiosity and Q-learning in the paper's world: "
-        "sensing, learning, needs, checked identities, and all tables; starting the process is left out. *Sensors and motion "
-        f"only* and the fused kernel read and move as often as that loop does ({reads['sonar']:.2f} sonar readings, "
-        f"{reads['blobs']:.2f} images and {reads['advance']:.2f} motions a cycle) with control of two lines; in the "
-        "fused kernel that control is compiled too, and no Python is left. Peers do the nearest work they offer, "
-        "without learning:", ""]
+        "sensing, learning, needs, checked identities, and all tables; starting the process is left out. *Sensors and "
+        "motion only* and the fused kernel read and move as often as that loop does "
+        f"({reads['sonar']:.2f} sonar readings, {reads['blobs']:.2f} images, {reads['advance']:.2f} motions a cycle) "
+        "with control of two lines; in the fused kernel that control is compiled too, and no Python is left. Peers do "
+        "the nearest work they offer, without learning:", ""]
     lines += [f"- {name}: {note}." for name, note in NOTES.items()]
     lines += ["", "## What was predicted and what came out", "", "| prediction | came out | |", "|---|---|---|"]
     for text, value, least in PREDICTED:
@@ -84,7 +84,8 @@ def page(found: dict[str, Any], source: str) -> str:
     mem = found["memory"]
     lines += ["", "## Memory and commands", "",
               f"Resident memory of a run of {mem['episodes']:,} episodes: {mem['mb_after_a_fifth']:.0f} MB after a "
-              f"fifth of it, {mem['mb_at_the_end']:.0f} MB at its end; all entries above are loaded in that process.", "",
+              f"fifth of it, {mem['mb_at_the_end']:.0f} MB at its end; all entries above are loaded in that process.",
+              "",
               "| command | wall s | CPU s |", "|---|---:|---:|"]
     lines += [f"| `{c['command']}` | {c['wall_s']:.1f} | {c['cpu_s']:.1f} |" for c in found["commands"].values()]
     return "\n".join(lines) + "\n"
