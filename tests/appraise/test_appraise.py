@@ -33,10 +33,12 @@ def test_litman_replayed_is_what_the_robot_felt(folder, tmp_path):
     assert table["level"].nunique() > 1
 
 
-def test_all_models_in_one_table_and_figure(folder, tmp_path):
-    assert main([str(folder), "--out", str(tmp_path)]) == 0
+def test_models_in_one_table_and_figure(folder, tmp_path):
+    names = ["litman", "habituation", "surprise", "optimal_arousal"]
+    assert set(names) < set(chosen("all"))
+    assert main([str(folder), "--curiosity", ",".join(names), "--out", str(tmp_path)]) == 0
     table = pd.read_csv(tmp_path / "appraisal.csv")
-    assert set(table["curiosity"]) == set(chosen("all")) >= {"litman", "habituation", "surprise", "learning_progress"}
+    assert set(table["curiosity"]) == set(names)
     assert table.groupby("curiosity").size().nunique() == 1
     assert table["liking"].between(0, 1).all() and table["wanting"].between(0, 1).all()
     habituation = table[(table["curiosity"] == "habituation") & (table["behaviour"] == "avoid")]

@@ -70,5 +70,6 @@ def test_a_run_uses_what_was_found(tmp_path):
     assert tables["episodes"]["active_cycles"] != by_hand["episodes"]["active_cycles"]
 
 
+@pytest.mark.long
 def test_several_processes_find_the_same(straight):
     assert evolve(experiment(), params(workers=2), None) == straight[0]

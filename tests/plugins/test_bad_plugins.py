@@ -69,18 +69,23 @@ def test_a_plugin_that_did_not_load_is_explained_when_it_is_asked_for(place):
     assert "wise" in line and "did not load" in line and "no such sensor" in line
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("    def observe(self, memory, percept):\n        raise KeyError('lost')", "plugins/bad.py:11: KeyError: 'lost'"),
-    ("    def liking(self, memory, percept):\n        return float('nan')", "plugins/bad.py: 'bad' gave wanting"),
-])
-def test_a_plugin_that_goes_wrong_in_a_run_and_the_run_after_it(place, text, message):
-    place.plugin("bad", HEAD + "@register('curiosity', 'bad')\nclass Bad(Litman):\n" + text)
-    done = place.attnlab("curiosity=bad,litman", "-m")
+IN_A_RUN = {
+    "loses": ("    def observe(self, memory, percept):\n        raise KeyError('lost')", ":11: KeyError: 'lost'"),
+    "dreams": ("    def liking(self, memory, percept):\n        return float('nan')", ": 'dreams' gave wanting"),
+}
+
+
+def test_plugins_that_go_wrong_in_a_run_and_the_run_after_them(place):
+    for name, (text, _) in IN_A_RUN.items():
+        place.plugin(name, HEAD + f"@register('curiosity', '{name}')\nclass Bad(Litman):\n" + text)
+    done = place.attnlab("curiosity=loses,dreams,litman", "-m")
     assert done.returncode == 1
     runs = place.runs()
-    assert runs["litman"]["status"] == "complete" and runs["bad"]["status"] == "failed"
-    assert message in runs["bad"]["error"].strip().splitlines()[-1]
-    assert [line for line in (done.stdout + done.stderr).splitlines() if message in line]
+    assert runs["litman"]["status"] == "complete"
+    for name, (_, message) in IN_A_RUN.items():
+        assert runs[name]["status"] == "failed"
+        assert runs[name]["error"].strip().splitlines()[-1].startswith(f"plugins/{name}.py{message}")
+        assert [line for line in (done.stdout + done.stderr).splitlines() if f"plugins/{name}.py{message}" in line]
 
 
 def broken(group, base, name="broken_part", **members):
