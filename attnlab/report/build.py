@@ -67,8 +67,8 @@ FIGURES = [
 
 
 def build(study_path: str | Path, out: str | Path | None, claims_name: str, baselines: str | Path | None,
-          quiet: bool) -> Path:
-    """See :func:`attnlab.report.build_report`."""
+          quiet: bool, draw: bool = True) -> Path:
+    """See :func:`attnlab.report.build_report`; without ``draw`` the page has no figures."""
     claims = load_claims(claims_name)
     study = load(study_path)
     conditions = Conditions(study, claims.labels)
@@ -83,8 +83,10 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str, base
     first = next(iter(judged.values()), [])
     with drawing(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
-        shown = [_draw(figure, conditions, others, first, target) for figure in FIGURES] if conditions.strata else []
-        sections = _sections(claims, conditions, judged, target)
+        shown = [_draw(figure, conditions, others, first, target) for figure in FIGURES
+                 if draw and conditions.strata]
+        tables = _tables(claims, conditions, target)
+        sections = _sections(conditions, judged, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
             more, section = _multiverse(multiverse.analyse(conditions, judged), target)
             shown, sections = more + shown, [section, *sections]
@@ -96,7 +98,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str, base
                 sections, provenance.block(study, conditions, claims))
     write_bytes(target / "index.html", text.encode())
     if not quiet:
-        _print(notes, first, target)
+        _print(notes, tables, first, target)
     return target / "index.html"
 
 
@@ -113,6 +115,7 @@ def _save(drawn, key: str, target: Path) -> bytes:
     import matplotlib.pyplot as plt
     png = png_bytes(drawn)
     write_bytes(target / "figures" / f"{key}.png", png)
+    drawn.set_layout_engine("none")  # everything has its place now; laying it out again would take as long as drawing
     write_bytes(target / "figures" / f"{key}.svg", svg_bytes(drawn))
     plt.close(drawn)
     return png
@@ -127,8 +130,8 @@ def _shows(figure: Figure, verdict: Verdict) -> bool:
     return number is not None and re.search(rf"\bFig {number[1]}(?!\d)", verdict.claim.where) is not None
 
 
-def _sections(claims: Claims, conditions: Conditions, judged: dict[str, list[Verdict]], target: Path) -> list[Section]:
-    """Table 5 and the claims, in the page and as CSV."""
+def _tables(claims: Claims, conditions: Conditions, target: Path) -> list[tuple[str, list[table5.Row]]]:
+    """Table 5 for each combination of the other settings in which a role of the claims file is a column of it."""
     paper = load_table()
     tables = []
     for stratum in conditions.strata:
@@ -137,6 +140,12 @@ def _sections(claims: Claims, conditions: Conditions, judged: dict[str, list[Ver
         if set(roles) & set(paper.conditions):
             tables.append((conditions.stratum_name(stratum), table5.rows(paper, conditions, roles)))
     write_bytes(target / "table5.csv", table5.as_csv(tables))
+    return tables
+
+
+def _sections(conditions: Conditions, judged: dict[str, list[Verdict]], tables: list[tuple[str, list[table5.Row]]],
+              target: Path) -> list[Section]:
+    """Table 5 and the claims, in the page and as CSV."""
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
     sections = []
     if tables:
@@ -215,16 +224,14 @@ def _span(seeds: list[int]) -> str:
         ", ".join(map(str, seeds[:20]))
 
 
-def _print(notes: list[str], judged: list[Verdict], target: Path) -> None:
-    import csv
-    for note in notes:
-        print(f"mind     {note}")
-    with open(target / "table5.csv", encoding="utf-8") as file:
-        has_table = len(list(csv.reader(file))) > 1
+def _print(notes: list[str], tables: list, judged: list[Verdict], target: Path) -> None:
+    if tables:
+        name, rows = tables[0]
+        table5.print_table(rows, f"Table 5 side by side{f' ({name})' if name else ''}: paper, here, difference")
     if judged:
         verdicts.print_table(judged)
+    for note in notes:
+        print(f"mind     {note}")
     print(f"figures  {target / 'figures'}")
-    if has_table:
-        print(f"table 5  {target / 'table5.csv'}")
-    print(f"claims   {target / 'verdicts.csv'}")
+    print(f"tables   {target / 'table5.csv'}, {target / 'verdicts.csv'}")
     print(f"page     {target / 'index.html'}")

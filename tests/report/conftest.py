@@ -1,0 +1,19 @@
+"""A small study and its report, made once."""
+
+from pathlib import Path
+
+import pytest
+from small_study import write_study
+
+
+@pytest.fixture(scope="session")
+def study(tmp_path_factory) -> Path:
+    """Three seeds, CR and NCR, CR safer by 0.3."""
+    return write_study(tmp_path_factory.mktemp("studies") / "small", safety=0.3)
+
+
+@pytest.fixture(scope="session")
+def built(study, tmp_path_factory) -> Path:
+    """The report of that study: the folder with index.html."""
+    from attnlab.report import build_report
+    return build_report(study, tmp_path_factory.mktemp("report"), quiet=True).parent
