@@ -65,7 +65,7 @@ class PolicyMatch(Measure):
     class Params:
         behaviour: str = setting("drink", "whose table")
         level: str = setting("any", "curiosity level: none, low, LH, HH, or any")
-        pattern: dict = setting({}, "bins -> period or periods, e.g. {1-4: 12, 5-6: [1, 4]}")
+        pattern: dict = setting({"1-6": 12}, "bins -> period or periods, e.g. {1-4: 12, 5-6: [1, 4]}")
         least_bins: int = setting(4, "visited bins a seed needs", low=1)
 
         def __post_init__(self):
