@@ -80,5 +80,6 @@ def test_pip_installs_it_into_a_fresh_environment(place, tmp_path):
     def run(*arguments):
         return subprocess.run([str(python), *arguments], cwd=place.path, capture_output=True, text=True, timeout=600)
     check(run, place)
+    assert run("-m", "attnlab.new", "learner", "mine").returncode == 0  # its templates are in the wheel
     where = run("-c", "import attnlab, attnlab_example; print(attnlab.__file__, attnlab_example.__file__)")
     assert where.stdout.count(str(home)) == 2
