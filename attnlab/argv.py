@@ -59,6 +59,17 @@ def seeds(key: str, text: str) -> list[int]:
     return found
 
 
+def compact(numbers: list[int]) -> str:
+    """The inverse of :func:`seeds`: [0, 1, 2, 7] as ``0-2,7``."""
+    runs: list[list[int]] = []
+    for n in numbers:
+        if runs and n == runs[-1][-1] + 1:
+            runs[-1].append(n)
+        else:
+            runs.append([n])
+    return ",".join(f"{run[0]}-{run[-1]}" if len(run) > 1 else str(run[0]) for run in runs)
+
+
 def _item(key: str, item: str, text: str) -> list[int]:
     if item.startswith("-") and item[1:].isdigit():
         raise ConfigError(key, f"is {item}, must be at least 0")

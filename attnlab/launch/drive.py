@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from attnlab.argv import compact, seeds
 from attnlab.launch.local import cores, run_jobs
 from attnlab.launch.progress import Display
 from attnlab.launch.study import Job, split
@@ -57,10 +58,15 @@ def _show(folder: Path, jobs: Sequence[Job], config: dict, typed: Sequence[str])
         made["report"] = _report(folder, config)
     hints = {} if config["report"] else {"next": f"python -m attnlab.report {shlex.quote(str(folder))}"}
     if config["simulator"]["name"] == "planar":
-        again = [argument for argument in typed if not argument.startswith(("simulator=", "study="))]
-        hints["on pybullet"] = shlex.join(["python", "-m", "attnlab", *again, "simulator=pybullet",
-                                           f"study={folder.name}_pybullet"])
+        hints["on pybullet"] = "python -m attnlab " + shlex.join(_on_pybullet(typed, folder.name))
     print_summary(study, names, {k: v for k, v in made.items() if v}, hints)
+
+
+def _on_pybullet(typed: Sequence[str], study: str) -> list[str]:
+    """The same arguments for the other robot; seeds as they may be typed."""
+    kept = [argument for argument in typed if not argument.startswith(("simulator=", "study="))]
+    kept = [f"seed={compact(seeds('seed', a.partition('=')[2]))}" if a.startswith("seed=") else a for a in kept]
+    return [*kept, "simulator=pybullet", f"study={study}_pybullet"]
 
 
 def _report(folder: Path, config: dict) -> Path | None:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from attnlab.argv import normalise, seeds
+from attnlab.argv import compact, normalise, seeds
 from attnlab.errors import ConfigError
 from attnlab.streams import stream
 
@@ -37,6 +37,7 @@ def test_ranges_are_written_out(ranges):
             seeds("seed", text)
     else:
         assert seeds("seed", text) == expected
+        assert seeds("seed", compact(expected)) == expected
 
 
 @given(st.integers(0, 2**63), st.lists(st.text(max_size=8), min_size=1, max_size=3))
