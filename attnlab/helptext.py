@@ -20,9 +20,16 @@ attnlab: learn where to look.
   python -m attnlab -m learner.alpha=0.1,0.5,0.8 seed=0-9    a sweep of your own
 
 A study that was interrupted goes on where it stopped: type the same command again.
-Parts and their settings:   python -m attnlab.parts [NAME]
-Results as pandas frames:   attnlab.results.load("outputs/cr_vs_ncr").episodes
-The composed config:        python -m attnlab --cfg job
+
+  python -m attnlab.parts [NAME]                    all parts, or what one does and its settings
+  python -m attnlab.report STUDY                    figures, Table 5, a verdict for each claim of the paper: one page
+  python -m attnlab.audit [FILE]                    which cells of a summary table cannot be true together
+  python -m attnlab.appraise RUN --curiosity all    a recorded run as every model of curiosity sees it
+  python -m attnlab.certify                         are the two simulators the same robot in the same world?
+  python -m attnlab.new behaviour NAME              start a part of your own: a file that works, and its test
+  python -m attnlab --cfg job                       the composed config
+
+Results as pandas frames: attnlab.results.load("outputs/cr_vs_ncr").episodes
 """
 
 
