@@ -67,12 +67,15 @@ def page(found: dict[str, Any], source: str) -> str:
     tries = ", ".join(f"{t:.2f}" for t in p["tries"])
     lines += [
         f"| two processes at least 0.9 of twice one | {p['efficiency']:.2f} (tries {tries}; a CPU-second "
-        f"{p['efficiency_cpu']:.2f}) | {'holds' if p['efficiency'] >= 0.9 else '**does not hold**'} |",
+        f"{p['efficiency_cpu']:.2f}; load before {p['load_before']:.1f}) | "
+        f"{'holds' if p['efficiency'] >= 0.9 else '**does not hold**'} |",
         f"| --help under 1 s | {help_s:.2f} s | {'holds' if help_s < 1 else '**does not hold**'} |"]
     if "study" in found["commands"]:
         study_s = found["commands"]["study"]["wall_s"]
         verdict = "holds" if study_s < 180 else "**does not hold**"
         lines.append(f"| full study under 180 s | {study_s:.0f} s | {verdict} |")
+    else:
+        lines.append("| full study under 180 s | not measured in this result (`--study`) | |")
     lines += ["", "## Where the time of planar's loop goes", "",
               "Shares of a profiled run (profiling makes small calls dearer than they are):", "",
               "| part | share |", "|---|---:|"]
@@ -86,8 +89,12 @@ def page(found: dict[str, Any], source: str) -> str:
               f"Resident memory of a run of {mem['episodes']:,} episodes: {mem['mb_after_a_fifth']:.0f} MB after a "
               f"fifth of it, {mem['mb_at_the_end']:.0f} MB at its end; all entries above are loaded in that process.",
               "",
-              "| command | wall s | CPU s |", "|---|---:|---:|"]
-    lines += [f"| `{c['command']}` | {c['wall_s']:.1f} | {c['cpu_s']:.1f} |" for c in found["commands"].values()]
+              "| command | wall s | CPU s | load before, after |", "|---|---:|---:|---|"]
+    lines += [f"| `{c['command']}` | {c['wall_s']:.1f} | {c['cpu_s']:.1f} | {c['load_before']:.1f}, "
+              f"{c['load_after']:.1f} |" for c in found["commands"].values()]
+    lines += ["", "Wall times, and the efficiency of two processes, mean what they say only on a machine that does "
+              "nothing else: a load before them well above 0 says that it did.", "",
+              (ROOT / "benchmarks" / "notes.md").read_text().strip()]
     return "\n".join(lines) + "\n"
 
 

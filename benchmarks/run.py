@@ -64,9 +64,10 @@ def measure(rounds: int, study: bool) -> dict[str, Any]:
     say("memory over episodes")
     found["memory"] = loops.memory_over_episodes(1000)
     say("two processes")
+    load = os.getloadavg()[0]
     tries = [loops.parallel_efficiency() for _ in range(3)]
     tries.sort(key=lambda t: t["efficiency"])
-    found["parallel"] = tries[len(tries) // 2] | {"tries": [t["efficiency"] for t in tries]}
+    found["parallel"] = tries[len(tries) // 2] | {"tries": [t["efficiency"] for t in tries], "load_before": load}
     found["commands"] = {}
     for name, command in commands.COMMANDS.items():
         say(f"command: {name}")

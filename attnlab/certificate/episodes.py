@@ -37,7 +37,7 @@ def divergence(one: Tables, two: Tables) -> dict[str, Any]:
         n = min(length_a, length_b)
         gap = np.hypot(*(a[:n] - b[:n]).T).max()
         gaps.append(float(gap))
-        same.append(length_a == length_b and gap <= DIVERGED_M)
+        same.append(bool(length_a == length_b and gap <= DIVERGED_M))
     return {"episodes": len(same), "identical": sum(same), "first": same.index(False) if False in same else len(same),
             "gaps_m": gaps}
 
