@@ -9,19 +9,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from attnlab.claims import DEFAULT
-
 
 def build_report(study_path: str | Path, out: str | Path | None = None, claims: str | None = None,
                  baselines: str | Path | None = None, quiet: bool = False) -> Path:
     """Write the report of a study and return the path of its page, ``<out>/index.html``.
 
-    ``out``: a folder, ``<study>/report`` if left out. ``claims``: name or path of a claims file (dinocera2014).
+    ``out``: a folder, ``<study>/report`` if left out. ``claims``: name or path of a claims file; the one
+    that the runs were started under if left out, or dinocera2014.
     ``baselines``: a second study whose runs are drawn in the attention economics. ``quiet``: print nothing.
     Raises ConfigError if there is no such study, or no such or a wrong claims file.
     """
     from attnlab.report.build import build
-    return build(study_path, out, claims or DEFAULT, baselines, quiet)
+    return build(study_path, out, claims, baselines, quiet)
 
 
 def survival_picture(study_path: str | Path) -> Path:

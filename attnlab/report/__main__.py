@@ -15,7 +15,7 @@ def main(argv: Sequence[str]) -> int:
         prog="python -m attnlab.report", description="Figures, verdicts on the paper's claims and one page of a study.")
     parser.add_argument("study", help="folder of a study, or its name in outputs/")
     parser.add_argument("--out", help="folder of the report (default: report/ in the study)")
-    parser.add_argument("--claims", help="name or path of a claims file (default: dinocera2014); see docs/claims.md")
+    parser.add_argument("--claims", help="name or path of a claims file (default: that of the runs); docs/claims.md")
     parser.add_argument("--baselines", metavar="STUDY", help="a study of baselines for the attention economics")
     parser.add_argument("--quiet", action="store_true", help="print nothing")
     given = parser.parse_args(list(argv))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
 
 from attnlab.audit.table import load_table
+from attnlab.claims import DEFAULT
 from attnlab.claims.files import Claims, load_claims
 from attnlab.claims.judge import Verdict, judge
 from attnlab.conditions import Conditions
@@ -66,11 +68,11 @@ FIGURES = [
 ]
 
 
-def build(study_path: str | Path, out: str | Path | None, claims_name: str, baselines: str | Path | None,
-          quiet: bool, draw: bool = True) -> Path:
-    """See :func:`attnlab.report.build_report`; without ``draw`` the page has no figures."""
-    claims = load_claims(claims_name)
+def build(study_path: str | Path, out: str | Path | None, claims_name: str | None, baselines: str | Path | None,
+          quiet: bool, only: Collection[str] | None = None) -> Path:
+    """See :func:`attnlab.report.build_report`; ``only`` names the figures to draw, all if left out."""
     study = load(study_path)
+    claims = load_claims(claims_name or _claims_of(study))
     conditions = Conditions(study, claims.labels)
     others = Conditions(load(baselines)) if baselines else None
     target = Path(out) if out else study.path / "report"
@@ -84,7 +86,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str, base
     with drawing(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
         shown = [_draw(figure, conditions, others, first, target) for figure in FIGURES
-                 if draw and conditions.strata]
+                 if conditions.strata and (only is None or figure.key in only)]
         tables = _tables(claims, conditions, target)
         sections = _sections(conditions, judged, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
@@ -100,6 +102,13 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str, base
     if not quiet:
         _print(notes, tables, first, target)
     return target / "index.html"
+
+
+def _claims_of(study: Study) -> str:
+    """The claims file that most runs say they were started under."""
+    names = Counter((study.about(run).get("claims") or {}).get("name") for run in study.complete)
+    names.pop(None, None)
+    return min(names, key=lambda name: (-names[name], name), default=DEFAULT)
 
 
 def _draw(figure: Figure, conditions: Conditions, others: Conditions | None, judged: list[Verdict],

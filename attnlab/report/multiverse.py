@@ -130,7 +130,7 @@ def shares(found: Multiverse) -> Figure:
     ax.set_yticks(range(n), [cut(f"{i}  {t}", 62) for i, t in zip(found.ids, found.titles, strict=True)])
     ax.invert_yaxis()
     ax.set_xlim(0, 103)
-    ax.set_xlabel(f"% of the readings in which the claim holds (of those that can test it, {len(found.names)} at most)")
+    ax.set_xlabel(f"% of the readings that can test the claim ({len(found.names)} at most)")
     ax.grid(axis="y", visible=False)
     if ax.get_legend_handles_labels()[0]:
         figure.legend(loc="outside upper right", ncol=2)

@@ -71,7 +71,7 @@ def test_hostile_names_run_nothing(browser, tmp_path):
     hostile = "<img src=x onerror=\"document.title='owned'\"><script>document.title='owned'</script>"
     study = tmp_path / "study"
     write_run(study, "none", 0, labels={"none": hostile}, swept={"learner": hostile}, name="<svg onload=alert(1)>")
-    page = build(study, None, "dinocera2014", None, True, draw=False)
+    page = build(study, None, "dinocera2014", None, True, only=())
     out, err = browser("--enable-logging=stderr", "--v=0", "--virtual-time-budget=3000", "--dump-dom", page.as_uri())
     assert re.search(r"<title>(.*?)</title>", out)[1] == "study: what was found"
     assert "<img" not in out and "<script" not in out and "CONSOLE" not in err

@@ -7,7 +7,6 @@ from html.parser import HTMLParser
 import pytest
 from small_study import write_run, write_study
 
-from attnlab.claims import DEFAULT
 from attnlab.report import build_report, survival_picture
 from attnlab.report.build import FIGURES, build
 from attnlab.report.page import PROVENANCE
@@ -15,9 +14,9 @@ from attnlab.report.page import PROVENANCE
 HOSTILE = "<script>alert(1)</script>\"'&<img src=x onerror=alert(1)>$\\frac{"
 
 
-def words(study) -> str:
-    """The page without its figures, which take most of the time."""
-    return build(study, None, DEFAULT, None, True, draw=False).read_text()
+def words(study, *figures: str, baselines=None, out=None) -> str:
+    """The page with these figures only, for drawing takes most of the time."""
+    return build(study, out, None, baselines, True, only=figures).read_text()
 
 
 def without_provenance(page: str) -> str:
@@ -67,11 +66,10 @@ def test_same_bytes_for_the_same_data(study, built, tmp_path):
         assert one == two, file
 
 
-def test_the_copy_of_a_study_gives_the_same_page(study, built, tmp_path):
+def test_the_copy_of_a_study_gives_the_same_page(study, tmp_path):
     copy = tmp_path / "elsewhere" / study.name
     shutil.copytree(study, copy, ignore=shutil.ignore_patterns("report"))
-    page = build_report(copy, quiet=True).read_text()
-    assert without_provenance(page) == without_provenance((built / "index.html").read_text())
+    assert without_provenance(words(copy)) == without_provenance(words(study, out=tmp_path / "here"))
 
 
 def test_hostile_names_stay_text(tmp_path):
@@ -80,7 +78,7 @@ def test_hostile_names_stay_text(tmp_path):
         for curiosity in ("litman", "none"):
             write_run(study, curiosity, seed, labels={"litman": HOSTILE, "none": "<b>NCR</b>"},
                       swept={"learner": HOSTILE[:30] + str(seed % 2)}, name=f"{curiosity}<i>{seed}&")
-    page = build_report(study, quiet=True).read_text()
+    page = words(study, "fig06_survival", "policies", "attention_raster", "attention_economics", "fig11_paths")
     tags = Tags(page)
     assert not tags.handlers
     assert set(tags.tags).isdisjoint({"script", "i"}) and "x" not in tags.sources
@@ -115,7 +113,7 @@ def test_any_swept_setting_and_missing_runs(tmp_path):
                                                                                 '"error": "Boom: it <broke>"'))
     old = (study / "none-0.5-seed1" / "run.json")
     old.write_text(old.read_text().replace('"schema": 1', '"schema": 0'))
-    page = build_report(study, quiet=True).read_text()
+    page = words(study, "fig06_survival", "fig07_rewards", "fig08a_needs", "policies", "fig11_paths")
     assert "failed: none-0.9-seed0 (Boom: it &lt;broke&gt;)" in page
     assert "litman-0.9-seed1 (cycles.parquet" in page
     assert "none-0.5-seed1 (tables of schema 0" in page
@@ -129,7 +127,7 @@ def test_parquet_damaged_inside(tmp_path):
     data = bytearray(file.read_bytes())
     data[4:-8] = bytes(len(data) - 12)
     file.write_bytes(bytes(data))
-    page = build_report(study, quiet=True).read_text()
+    page = words(study, "fig06_survival")
     assert "damaged: none-seed1 (episodes.parquet" in page and 'id="fig06_survival"' in page
 
 
@@ -165,7 +163,7 @@ def test_baselines(study, tmp_path):
     baselines = tmp_path / "baselines"
     for learner in ("fixed_1", "random"):
         write_study(baselines, seeds=2, curiosities=("none",), swept={"learner": learner})
-    page = build_report(study, tmp_path / "out", baselines=baselines, quiet=True).read_text()
+    page = words(study, "attention_economics", baselines=baselines, out=tmp_path / "out")
     assert re.search(r"fixed_1 \d+ activations in 100 cycles", page)
 
 
@@ -177,6 +175,19 @@ def test_survival_picture(study, tmp_path):
 
 
 def test_every_line_of_the_terminal_table_is_there(study, tmp_path, capsys):
-    build_report(study, tmp_path / "loud")
+    build(study, tmp_path / "loud", None, None, False, only=())
     said = capsys.readouterr().out
     assert "C27" in said and "hunger, mean" in said and "index.html" in said
+
+
+def test_the_claims_file_of_the_runs_is_the_default(tmp_path):
+    import json
+    rules = tmp_path / "mine.yaml"
+    rules.write_text("roles: {treatment: {where: {curiosity: none}}}\nclaims: {only_one: {title: t, where: w, says: s, "
+                     "parts: [{measure: survival, test: level, direction: higher, unit: '%'}]}}\n")
+    study = write_study(tmp_path / "own", curiosities=("none",))
+    for file in study.glob("*/run.json"):
+        about = json.loads(file.read_text())
+        file.write_text(json.dumps({**about, "claims": {"name": str(rules), "sha256": "0" * 64}}))
+    page = words(study)
+    assert 'id="claim-only_one"' in page and "1 claim of" in page and "another claims file" in page
