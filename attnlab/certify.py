@@ -86,6 +86,7 @@ def certify(worlds: Sequence[str], poses: int, episodes: int, seeds: int, overri
     """All measures of all worlds, and the verdict."""
     from attnlab.certificate.verdict import judge
     from attnlab.run import versions
+    commit = _commit()  # before anything runs: the checkout may move on meanwhile
     runs = len(worlds) * seeds * (episodes + (episodes + 1) // 2)
     with _progress(len(worlds) * (poses + DRIVES), runs * 5) as ticks:
         measures = {}
@@ -95,7 +96,7 @@ def certify(worlds: Sequence[str], poses: int, episodes: int, seeds: int, overri
                 measures[world] |= _loops(world, episodes, seeds, overrides, ticks[1])
     verdict = judge(measures)
     shown = compose(worlds[0], 0, "pybullet", 1, overrides)["simulator"]
-    return {"passes": all(row["passes"] for row in verdict), "commit": _commit(), "poses": poses, "seeds": seeds,
+    return {"passes": all(row["passes"] for row in verdict), "commit": commit, "poses": poses, "seeds": seeds,
             "train": episodes, "validation": (episodes + 1) // 2 if episodes else 0,
             "camera": f"{shown['camera_columns']}x{shown['camera_rows']}", "versions": versions(),
             "machine": platform.machine(), "verdict": verdict, "worlds": measures}
