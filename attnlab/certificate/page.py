@@ -56,7 +56,7 @@ def page(certificate: dict[str, Any]) -> str:
         "touches nothing. A grazing ray passes a vertical edge nearer than 1 mm: Bullet's triangles reach some "
         "hundredths of a millimetre beyond their edges, so it may hear an edge that planar's ray just misses. Bullet's "
         "contact is exact to some tenths of a millimetre. Closed loops are the same runs from the same seeds in both "
-        "simulators, with learning: one such ray or contact changes what is learned and what follows; from there the two "
+        "simulators, with learning: one such ray or contact changes what is learned and what follows; from there they "
         "are different runs of the same robot. Distributions (total variation distance, at activations) are compared "
         "over all episodes, before and after that. Survival is a share of the episode's cycles, a mean over validation "
         "episodes of all seeds; policies are moved without further learning. The last row is not judged: wheels with "
