@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 
 def greedy(runs, behaviour: str, level: str = "any") -> dict[int, dict[int, int]]:
-    """Seed -> percept -> learned period (mc). Percepts that a seed never visited are left out.
+    """Seed -> percept -> learned period (mc). Percepts that a seed never visited, or in which it learned no preference
+    (all values equal: a learner that does not learn), are left out.
 
     The state holds the last period too, so each percept has a row a period: every row votes for its best action with
     its visits. ``level``: a curiosity level, or any (all levels vote).
@@ -31,7 +32,10 @@ def greedy(runs, behaviour: str, level: str = "any") -> dict[int, dict[int, int]
     state = ["seed", "curiosity_level", "period", "percept"]
     visits = rows.groupby(state, sort=True)["visits"].sum()
     best = rows.loc[rows.groupby(state, sort=True)["q"].idxmax()].set_index(state)["action"]
-    votes = visits[visits > 0].to_frame("visits").assign(action=best).reset_index()
+    values = rows.groupby(state, sort=True)["q"]
+    votes = visits[(visits > 0) & (values.max() > values.min())].to_frame("visits")
+    votes["action"] = best.reindex(votes.index).to_numpy()  # an empty frame would take over the index of a series
+    votes = votes.reset_index()
     total = votes.groupby(["seed", "percept", "action"])["visits"].sum().reset_index()
     total = total.sort_values(["seed", "percept", "visits", "action"]).groupby(["seed", "percept"]).last()
     found: dict[int, dict[int, int]] = {int(seed): {} for seed in runs.runs}

@@ -89,7 +89,8 @@ def headline(claims: Claims, verdicts: Sequence[Verdict]) -> str:
             items.append(f"<li>{chip(verdict)} {said}.</li>")
     holds = counts[VERDICTS[0]] + counts[VERDICTS[1]]
     source = f", {escape(claims.source)}" if claims.source else ""
-    return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{len(verdicts)} claim{"s" * (len(verdicts) > 1)} of <cite>{escape(claims.title)}</cite>'
+    number = f"{len(verdicts)} claim{'s' * (len(verdicts) > 1)}"
+    return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{number} of <cite>{escape(claims.title)}</cite>'
             f"{source}, judged by the rules of {escape(claims.path.name)}: the claimed direction holds in "
             f"<b>{holds}</b>, and in {counts[VERDICTS[0]]} of these any number given is met too.</p>\n"
             f'<div class="bar" role="img" aria-label="{holds} of {len(verdicts)} claims hold">{bar}</div>\n'

@@ -43,12 +43,13 @@ def learned(conditions: Conditions) -> list[Learned]:
                     by_seed = greedy(line.runs, behaviour, level)
                 except CannotMeasure:
                     continue
-                cells = {}
+                cells: dict[int, tuple[int, int, int]] = {}
                 for percept in sorted({p for policy in by_seed.values() for p in policy}):
                     counts = Counter(policy[percept] for policy in by_seed.values() if percept in policy)
                     period, most = min(counts.items(), key=lambda item: (-item[1], item[0]))
                     cells[percept] = (period, most, sum(counts.values()))
-                found.append(Learned(title, behaviour, level, cells))
+                if cells:
+                    found.append(Learned(title, behaviour, level, cells))
     return found
 
 

@@ -29,8 +29,9 @@ def paths(conditions: Conditions) -> Figure:
     lines = first_lines(conditions, 6)
     per_row = min(3, max(1, len(lines)))
     map_rows = -(-max(1, len(lines)) // per_row)
-    figure = plt.figure(figsize=(WIDTH_IN, 2.9 * map_rows + 2.6))
-    outer = figure.add_gridspec(2, 1, height_ratios=[2.9 * map_rows, 2.3])
+    below = 1.3 + 0.5 * max(2, len(lines))
+    figure = plt.figure(figsize=(WIDTH_IN, 2.9 * map_rows + below + 0.3))
+    outer = figure.add_gridspec(2, 1, height_ratios=[2.9 * map_rows, below])
     maps = outer[0].subgridspec(map_rows, per_row)
     for place, (title, line) in enumerate(lines):
         ax = figure.add_subplot(maps[place // per_row, place % per_row])

@@ -120,6 +120,16 @@ def test_policies(conditions):
         greedy(runs, "sleep")
 
 
+def test_a_learner_that_does_not_learn_has_no_policy(tmp_path):
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+    file = write_run(tmp_path / "s", "none", 0) / "policy.parquet"
+    table = pq.read_table(file)
+    flat = pa.array([0.0] * len(table))
+    pq.write_table(table.set_column(table.schema.get_field_index("q"), "q", flat), file)
+    assert greedy(Conditions(load(tmp_path / "s")).runs("none"), "drink") == {0: {}}
+
+
 def test_levels_that_matter_and_levels_that_do_not():
     import numpy as np
     rng = np.random.default_rng(0)
