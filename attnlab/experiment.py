@@ -177,7 +177,7 @@ class Experiment:
     def start_pose(self, phase: str, episode: int) -> tuple[float, float, float]:
         """Where an episode starts: from the seed alone, so that all conditions share it."""
         if self.reading.start_pose == "fixed":
-            return self.layout.steady_start()
+            return self.layout.steady_start
         return self.layout.random_start(stream(self.settings.seed, "start", phase, episode))
 
 

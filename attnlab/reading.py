@@ -23,7 +23,8 @@ class Reading:
     energy_start: float = setting(4600.0, "E(0)", unit="UoE", low=0)
     energy_max: float = setting(4600.0, "E_max of eq 11; Table 4 says 4 * max_cycles", unit="UoE", above=0)
     energy_well: float = setting(3067.0, "E_well of eq 11: 2/3 of E_max", unit="UoE", low=0)
-    energy_carry_over: bool = setting(False, "start an episode with the energy the last one ended with")
+    energy_carry_over: bool = setting(False, "start an episode with the energy the last one ended with; a robot that "
+                                      "died starts with energy_start")
     energy_death: bool = setting(False, "die when energy falls below energy_min")
     energy_min: float = setting(300.0, "E_min of Table 4", unit="UoE", low=0)
     # needs

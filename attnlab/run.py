@@ -40,6 +40,7 @@ def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, floa
             before, balance = balance, body.energy + sum([body.values[i] for i in feeding])
             check_balance(before, balance, body.e_u, body.e_nb, growth, active, simulator.cycle - cycle)
         events.append(Event(cycle, active, body.energy, tuple(body.values)))
+    body.dead = death is not None
     penalties = [a.died(death, learning) if death else 0.0 for a in agent.attentions]
     return events, death, penalties
 

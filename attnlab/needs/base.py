@@ -57,6 +57,7 @@ class Body:
         self.index = {need.name: i for i, need in enumerate(needs)}
         self.e_u, self.e_nb, self.energy_start = e_u, e_nb, energy_start
         self.energy = energy_start
+        self.dead = False
         self._deadly = [(i, need) for i, need in enumerate(needs) if need.death_at is not None]
         self._energy_floor = reading.energy_min if reading.energy_death else None
         self._rates = [(need.per_activation, need.per_cycle, need.feeds_energy) for need in needs]
@@ -64,8 +65,9 @@ class Body:
 
     def start(self) -> None:
         """The state at the start of an episode."""
-        if not self.reading.energy_carry_over:
+        if not self.reading.energy_carry_over or self.dead:  # carried over, the energy of a dead robot kills the next
             self.energy = self.energy_start
+        self.dead = False
         self.values = [need.start for need in self.needs]
         self.meals = [0] * len(self.needs)
         self._eaten = [0.0] * len(self.needs)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import pi
 from random import Random
 
@@ -52,6 +53,7 @@ class Layout:
             x, y = draw.choice(list(self.free_points()))
         return x, y, draw.uniform(-pi, pi)
 
+    @cached_property
     def steady_start(self) -> tuple[float, float, float]:
         """The one start pose of ``reading.start_pose=fixed``: the world's own, or the free point nearest its middle."""
         if self.fixed_start is not None:

@@ -37,7 +37,7 @@ def test_shipped_worlds_are_solvable_and_start_free(name):
         x, y, heading = layout.random_start(draw)
         assert clearance(x, y, layout.solids) >= layout.start_clearance_m
         assert -pi <= heading <= pi
-    x, y, _ = layout.steady_start()
+    x, y, _ = layout.steady_start
     assert clearance(x, y, layout.solids) >= layout.start_clearance_m
 
 
