@@ -41,6 +41,7 @@ def _main(argv: Sequence[str]) -> int:
                         help="training episodes of a closed-loop run, with half as many to validate; 0: none (60)")
     parser.add_argument("--seeds", type=_count, default=3, help="closed-loop runs a world (3)")
     parser.add_argument("--worlds", default=",".join(WORLDS), help=f"names with commas ({','.join(WORLDS)})")
+    parser.add_argument("--no-wheels", action="store_true", help="leave the unjudged row of drive=wheels out (slow)")
     parser.add_argument("--out", type=Path, default=Path("outputs/certificate"), help="folder (outputs/certificate)")
     parser.add_argument("overrides", nargs="*", help="settings of a run, name=value")
     arguments = parser.parse_args(argv)
@@ -49,7 +50,8 @@ def _main(argv: Sequence[str]) -> int:
     registry.load_all()
     worlds = [world for world in arguments.worlds.split(",") if world]
     compose(worlds[0] if worlds else "", 0, "planar", 1, arguments.overrides)  # complain before anything runs
-    found = certify(worlds, arguments.poses, arguments.episodes, arguments.seeds, arguments.overrides)
+    found = certify(worlds, arguments.poses, arguments.episodes, arguments.seeds, arguments.overrides,
+                    not arguments.no_wheels)
     found["command"] = " ".join(["python -m attnlab.certify", *argv])
     _store(found, arguments.out)
     _show(found, arguments.out)
@@ -82,18 +84,19 @@ def compose(world: str, seed: int, simulator: str, episodes: int, overrides: Seq
     return {**OmegaConf.to_container(config, resolve=True), **more}
 
 
-def certify(worlds: Sequence[str], poses: int, episodes: int, seeds: int, overrides: Sequence[str]) -> dict[str, Any]:
+def certify(worlds: Sequence[str], poses: int, episodes: int, seeds: int, overrides: Sequence[str],
+            wheels: bool = True) -> dict[str, Any]:
     """All measures of all worlds, and the verdict."""
     from attnlab.certificate.verdict import judge
     from attnlab.run import versions
     commit = _commit()  # before anything runs: the checkout may move on meanwhile
     runs = len(worlds) * seeds * (episodes + (episodes + 1) // 2)
-    with _progress(len(worlds) * (poses + DRIVES), runs * 5) as ticks:
+    with _progress(len(worlds) * (poses + DRIVES), runs * (5 if wheels else 4)) as ticks:
         measures = {}
         for world in worlds:
             measures[world] = _poses(world, poses, overrides, ticks[0])
             if episodes and seeds:
-                measures[world] |= _loops(world, episodes, seeds, overrides, ticks[1])
+                measures[world] |= _loops(world, episodes, seeds, overrides, wheels, ticks[1])
     verdict = judge(measures)
     shown = compose(worlds[0], 0, "pybullet", 1, overrides)["simulator"]
     return {"passes": all(row["passes"] for row in verdict), "commit": commit, "poses": poses, "seeds": seeds,
@@ -113,13 +116,14 @@ def _poses(world: str, poses: int, overrides: Sequence[str], tick) -> dict[str, 
     return {**found, "rays_grazing_share": found["rays_grazing"] / max(1, found["rays"])}
 
 
-def _loops(world: str, episodes: int, seeds: int, overrides: Sequence[str], tick) -> dict[str, Any]:
+def _loops(world: str, episodes: int, seeds: int, overrides: Sequence[str], wheels: bool, tick) -> dict[str, Any]:
     """Runs that stay in their simulator, and the same ones validated in the other (and on wheels)."""
     import numpy as np
 
-    from attnlab.certificate.episodes import counts, divergence, run, survival, total_variation
+    from attnlab.certificate.episodes import counts, divergence, run, seed_ratio, survival, total_variation
     kept: dict[str, list[float]] = {}
     totals: dict[str, dict[str, Counter]] = {name: {} for name in PAIR}
+    by_seed: dict[str, list[dict[str, Counter]]] = {name: [] for name in PAIR}
     pairs = []
     for seed in range(seeds):
         stayed = {}
@@ -127,10 +131,11 @@ def _loops(world: str, episodes: int, seeds: int, overrides: Sequence[str], tick
             config = compose(world, seed, name, episodes, overrides)
             stayed[name] = run(config, tick)
             kept.setdefault(f"{name}_on_{name}", []).extend(survival(stayed[name]))
-            for key, count in counts(stayed[name], config["behaviours"]).items():
+            by_seed[name].append(counts(stayed[name], config["behaviours"]))
+            for key, count in by_seed[name][-1].items():
                 totals[name][key] = totals[name].get(key, Counter()) + count
             moves = [(other, {"simulator": other, "drive": None})]
-            if name == "planar":
+            if name == "planar" and wheels:
                 moves.append(("wheels", {"simulator": "pybullet", "drive": "wheels"}))
             for label, validation in moves:
                 moved = run({**config, "record": "none", "validation": validation}, tick)
@@ -139,6 +144,10 @@ def _loops(world: str, episodes: int, seeds: int, overrides: Sequence[str], tick
     gaps = [gap for pair in pairs for gap in pair["gaps_m"]]
     apart = {key: total_variation(count, totals["pybullet"][key]) for key, count in totals["planar"].items()}
     found = {name: float(np.mean(values)) for name, values in kept.items()}
+    ratios = seed_ratio(by_seed["planar"], by_seed["pybullet"])
+    if ratios:
+        found |= {f"{what}_ratio": max(v for key, v in ratios.items() if key.startswith(what))
+                  for what in ("percepts", "periods", "deaths")}
     return {
         **found, "loop_episodes": len(gaps), "loop_identical": sum(pair["identical"] for pair in pairs),
         "loop_first": min(pair["first"] for pair in pairs), "loop_gap_m_median": float(np.median(gaps)),

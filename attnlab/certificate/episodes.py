@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -58,6 +59,19 @@ def counts(tables: Tables, behaviours: Iterable[str]) -> dict[str, Counter]:
             active = zip(cycles[f"{behaviour}_active"], cycles[f"{behaviour}_{what}"], strict=True)
             found[f"{what}s_{behaviour}"] = Counter(value for on, value in active if on)
     return found
+
+
+def seed_ratio(one: list[dict[str, Counter]], two: list[dict[str, Counter]]) -> dict[str, float]:
+    """For each distribution, the mean total variation between the simulators (``one[s]`` against ``two[s]``, by seed)
+    over the mean between two seeds of the same simulator. Empty for fewer than two seeds; 0 where both are 0."""
+    if len(one) < 2:
+        return {}
+    ratios = {}
+    for key in one[0]:
+        across = np.mean([total_variation(a[key], b[key]) for a, b in zip(one, two, strict=True)])
+        within = np.mean([total_variation(a[key], b[key]) for runs in (one, two) for a, b in combinations(runs, 2)])
+        ratios[key] = float(across / within) if within else float("inf") if across else 0.0
+    return ratios
 
 
 def total_variation(one: Counter, two: Counter) -> float:
