@@ -66,7 +66,7 @@ def _context(jobs: Sequence[Job]):
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    heavy = ["numba"] if any(job.config["simulator"].get("name") == "planar" for job in jobs) else []
+    heavy = ["attnlab.kernels.planar"] if any(job.config["simulator"].get("name") == "planar" for job in jobs) else []
     context.set_forkserver_preload(["attnlab.launch.worker", "pyarrow.parquet", "omegaconf", *heavy])
     return context
 

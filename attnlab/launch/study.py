@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import platform
 import re
 import shutil
 from collections.abc import Mapping, Sequence
@@ -118,6 +119,17 @@ def _memory() -> int:
         return 2**62
 
 
+def _alive(about: Mapping[str, Any]) -> bool:
+    """Is the process that runs this still there? Told on its own machine only."""
+    if os.name != "posix" or about.get("host") != platform.node() or not isinstance(about.get("pid"), int):
+        return False
+    try:
+        os.kill(about["pid"], 0)
+    except OSError:
+        return False
+    return True
+
+
 def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[str, int]]:
     """(to run, complete already, why the ones to run are not complete: reason -> how many).
 
@@ -134,6 +146,9 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
         for folder in existing.get(job.key, []):
             status, _, about = state_of(folder)
             reason = status
+            if status == "running" and _alive(about):
+                raise ConfigError("study", f"{folder} is being run by process {about['pid']}",
+                                  "Wait for it, or name another: study=...")
             if status == "complete" and about.get("key") == job.key:
                 job.folder = folder
                 break

@@ -87,6 +87,20 @@ def test_asking_again_runs_only_what_is_missing(study, attnlab):
     assert len(load(folder).complete) == 6
 
 
+def test_two_at_once_are_refused(study, attnlab):
+    """A run that another living process works at is left alone."""
+    folder, _ = study
+    run = sorted(folder.glob("*/run.json"))[0]
+    about = {**json.loads(run.read_text()), "status": "running", "pid": os.getpid()}
+    run.write_text(json.dumps(about))
+    again = attnlab("+experiment=cr_vs_ncr", "-m", "seed=0-1", *SHORT)
+    assert again.returncode == 2
+    assert f"is being run by process {os.getpid()}" in again.stderr
+    about["pid"] = 2**22 + 1  # no such process
+    run.write_text(json.dumps(about))
+    assert attnlab("+experiment=cr_vs_ncr", "-m", "seed=0-1", *SHORT).returncode == 0
+
+
 def test_fresh_starts_over_and_makes_the_same_bytes(study, attnlab):
     folder, _ = study
     before = {p: p.read_bytes() for p in folder.glob("*/*.parquet")}
