@@ -45,7 +45,7 @@ class RunSettings:
     check_identities: bool = setting(True, "check the bookkeeping on every cycle")
     picture: bool = setting(True, "draw the study's figures at its end")
     report: bool = setting(True, "build the study's report at its end")
-    claims_file: str = setting("dinocera2014", "claims the study is judged by; the hash of the file is stored with a run")
+    claims_file: str = setting("dinocera2014", "claims the study is judged by; its hash is stored with a run")
     variants: Any = setting(None, "settings that are swept together: {name: {setting: value, ...}, ...}, or "
                             "{design: multiverse, size: 64, seed: 0}")
     labels: dict = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}")
