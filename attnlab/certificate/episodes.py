@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable
 from itertools import combinations
+from random import Random
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from attnlab.run import run_experiment
 
 Tables = dict[str, dict[str, list]]
 DIVERGED_M = 0.001
+MOST_SPLITS = 2000
 
 
 def run(config: dict[str, Any], tick: Callable[[], None]) -> Tables:
@@ -61,17 +63,30 @@ def counts(tables: Tables, behaviours: Iterable[str]) -> dict[str, Counter]:
     return found
 
 
-def seed_ratio(one: list[dict[str, Counter]], two: list[dict[str, Counter]]) -> dict[str, float]:
-    """For each distribution, the mean total variation between the simulators (``one[s]`` against ``two[s]``, by seed)
-    over the mean between two seeds of the same simulator. Empty for fewer than two seeds; 0 where both are 0."""
-    if len(one) < 2:
-        return {}
-    ratios = {}
-    for key in one[0]:
-        across = np.mean([total_variation(a[key], b[key]) for a, b in zip(one, two, strict=True)])
-        within = np.mean([total_variation(a[key], b[key]) for runs in (one, two) for a, b in combinations(runs, 2)])
-        ratios[key] = float(across / within) if within else float("inf") if across else 0.0
-    return ratios
+def exchangeable(one: list[dict[str, Counter]], two: list[dict[str, Counter]]) -> float:
+    """p of the hypothesis that the runs in ``one`` and ``two`` (distributions by name) come from the same simulator.
+
+    A permutation test over all ways to part the runs in two halves (2,000 drawn ones if there are more), its statistic
+    the mean total variation across the halves less that within, summed over the distributions.
+    """
+    runs, half = [*one, *two], len(one)
+    if half < 2:
+        return 1.0
+    apart = sum(np.array([[total_variation(a[key], b[key]) for b in runs] for a in runs]) for key in runs[0])
+    n = len(runs)
+
+    def statistic(chosen: Iterable[int]) -> float:
+        mask = np.zeros(n, bool)
+        mask[list(chosen)] = True
+        across = apart[mask][:, ~mask].mean()
+        within = [apart[m][:, m].sum() / (half * (half - 1)) for m in (mask, ~mask)]
+        return float(across - sum(within) / 2)
+
+    splits = [(0, *rest) for rest in combinations(range(1, n), half - 1)]  # a half and its complement count once
+    if len(splits) > MOST_SPLITS:
+        splits = Random(0).sample(splits, MOST_SPLITS)
+    seen = statistic(range(half))
+    return (1 + sum(statistic(split) >= seen - 1e-12 for split in splits)) / (1 + len(splits))
 
 
 def total_variation(one: Counter, two: Counter) -> float:

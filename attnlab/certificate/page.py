@@ -20,7 +20,7 @@ NUMBERS = (
     ("closed loop: gap of paired episodes, median, 99 %, max (m)", ("loop_gap_m_median", "loop_gap_m_p99",
                                                                    "loop_gap_m_max")),
     ("total variation of percepts, periods (worst behaviour), deaths", ("percepts_tv", "periods_tv", "deaths_tv")),
-    ("the same between simulators, over that between seeds", ("percepts_ratio", "periods_ratio", "deaths_ratio")),
+    ("permutation test over runs that they differ: 1 - p", ("loops_differ",)),
     ("survival, trained on planar: on planar, pybullet", ("planar_on_planar", "planar_on_pybullet")),
     ("survival, trained on pybullet: on pybullet, planar", ("pybullet_on_pybullet", "pybullet_on_planar")),
     ("survival, trained on planar, on pybullet with drive=wheels", ("planar_on_wheels",)),
@@ -59,8 +59,8 @@ def page(certificate: dict[str, Any]) -> str:
         "contact is exact to some tenths of a millimetre. Closed loops are the same runs from the same seeds in both "
         "simulators, with learning: one such ray or contact changes what is learned and what follows; from there they "
         "are different runs of the same robot. Distributions (total variation distance, at activations) are compared "
-        "over all episodes, before and after that; their scale is how far two seeds of one simulator are apart. "
-        "Survival is a share of the episode's cycles, a mean over validation "
+        "over all episodes, before and after that; the test asks whether runs of the two "
+        "simulators could exchange their names, given how far runs of one are apart by seed. Survival is a share of the episode's cycles, a mean over validation "
         "episodes of all seeds; policies are moved without further learning. The last row is not judged: wheels with "
         "physics are another robot.", ""]
     return "\n".join(lines)
