@@ -59,8 +59,9 @@ def page(certificate: dict[str, Any]) -> str:
         "contact is exact to some tenths of a millimetre. Closed loops are the same runs from the same seeds in both "
         "simulators, with learning: one such ray or contact changes what is learned and what follows; from there they "
         "are different runs of the same robot. Distributions (total variation distance, at activations) are compared "
-        "over all episodes, before and after that; the test asks whether runs of the two "
-        "simulators could exchange their names, given how far runs of one are apart by seed. Survival is a share of the episode's cycles, a mean over validation "
+        "over all episodes, before and after that; the test asks whether runs of the two simulators could exchange "
+        "their names, given how far runs of one are apart by seed. Survival is a share of the episode's cycles, a mean "
+        "over validation "
         "episodes of all seeds; policies are moved without further learning. The last row is not judged: wheels with "
         "physics are another robot.", ""]
     return "\n".join(lines)

@@ -2,8 +2,8 @@
 
 Closed loops are chaotic: one ray that passes an edge by a hundredth of a millimetre makes another run of it. How far
 apart two runs of *one* simulator get is told by other seeds, so distributions of percepts, periods and deaths are
-judged by a permutation test over runs, one a world: could the simulators' names be exchanged between the runs? It fails where
-that is refused at 0.05 over the four worlds (0.0125 each). Six seeds or more give it any power.
+judged by a permutation test over runs, one a world: could the simulators' names be exchanged between the runs? It
+fails where that is refused at 0.05 over the four worlds (0.0125 each). Six seeds or more give it any power.
 """
 
 from __future__ import annotations
