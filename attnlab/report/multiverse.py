@@ -77,6 +77,8 @@ def _factors(conditions: Conditions) -> tuple[dict[str, list[str]], dict[str, st
     plain = {f"reading.{name}": _text(value) for name, value in dataclasses.asdict(Reading()).items()}
     merged: dict[tuple, list[int]] = {}
     for place in range(len(conditions.settings)):
+        if conditions.settings[place] == "variant":
+            continue  # the name of a combination, not a setting of it
         column = [stratum[place] for stratum in conditions.strata]
         codes = tuple(list(dict.fromkeys(column)).index(value) for value in column)
         if len(set(codes)) > 1:
