@@ -37,10 +37,9 @@ def summary_frame(study: Study, runs: set[str] | None = None):
 
 def conditions(study: Study) -> dict[str, str]:
     """The name of each run's condition, by run."""
-    from attnlab.results.files import read_json
     found = {}
     for run in study.complete:
-        about = read_json(study.path / run / "run.json") or {}
+        about = study.about(run)
         found[run] = about.get("condition") or about.get("curiosity") or "all"
     return found
 
