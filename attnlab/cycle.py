@@ -41,19 +41,22 @@ def machine_cycle(agent: Agent, exploration: Exploration, learning: bool) -> tup
     Returns (behaviours that were active, cause of death or None). Nothing happens in an idle cycle but motion, contact
     and the passing of time, so they are handed to the simulator and the body in one call each.
     """
-    now, body, attentions = agent.now, agent.body, agent.attentions
-    start = now.cycle = agent.simulator.cycle
-    # 1. Whoever's clock fires looks, is rewarded for the period that elapsed, learns, and chooses the next.
-    active = 0
-    for attention in attentions:
+    now, body, simulator = agent.now, agent.body, agent.simulator
+    start = now.cycle = simulator.cycle
+    active, idle_until, held = 0, agent.max_cycles, []
+    for attention in agent.attentions:
+        # 1. Whoever's clock fires looks, is rewarded for the period that elapsed, learns, and chooses the next.
         if attention.due == start:
             attention.activate(now, exploration, learning)
             active += 1
+        if attention.due < idle_until:
+            idle_until = attention.due
+        if attention.command is not None:
+            held.append(attention.command)
     # 2. Commands are held until their behaviour looks again; all that are held become one.
-    v, w = agent.fusion.fuse([a.command for a in attentions if a.command is not None])
+    v, w = agent.fusion.fuse(held)
     # 3. The robot moves; contact and the safety distance are tested in every cycle.
-    idle_until = min(agent.max_cycles, *[a.due for a in attentions])
-    cycles, crashed = agent.simulator.advance(v, w, body.until_death(active, idle_until - start))
+    cycles, crashed = simulator.advance(v, w, body.until_death(active, idle_until - start))
     # 4. Needs and energy change, and may end it.
     cause = body.live(active, cycles)
     return active, "crash" if crashed else cause

@@ -1,24 +1,29 @@
-"""Identities that hold whatever the robot does; checked on every cycle of a run unless ``check_identities=false``."""
+"""Identities that hold whatever the robot does; checked for every cycle of a run unless ``check_identities=false``."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isclose
+
+import numpy as np
 
 
 class IdentityError(AssertionError):
     """The bookkeeping of a run contradicts the equations: a bug, never a result."""
 
 
-def check_balance(before: float, after: float, e_u: float, e_nb: float, growth: float, active: int,
-                  cycles: int) -> None:
+def check_balance(balance: np.ndarray, e_u: float, e_nb: float, growth: float, active: np.ndarray,
+                  cycles: np.ndarray) -> None:
     """E plus the needs that feed it changes by -e_u a cycle and (growth - e_nb) an active behaviour, whatever is eaten.
 
-    ``before`` and ``after`` are those sums in UoE; ``growth`` is the sum of k over those needs (2k in the paper).
+    ``balance``: that sum (UoE) at the start and after each of n stretches, shape (n + 1,); ``active`` behaviours at the
+    beginning of each stretch and the ``cycles`` it took, shape (n,). ``growth`` is the sum of k over those needs (2k in
+    the paper).
     """
-    expected = -e_u * cycles + (growth - e_nb) * active
-    if not isclose(after - before, expected, rel_tol=1e-9, abs_tol=1e-6):
-        raise IdentityError(f"energy + needs changed by {after - before} over {cycles} cycles, should be {expected}")
+    changed, expected = np.diff(balance), -e_u * cycles + (growth - e_nb) * active
+    wrong = np.flatnonzero(~np.isclose(changed, expected, rtol=1e-9, atol=1e-6))
+    if wrong.size:
+        i = wrong[0]
+        raise IdentityError(f"energy + needs changed by {changed[i]} over {cycles[i]} cycles, should be {expected[i]}")
 
 
 def check_clock(cycles_of: Sequence[int], periods: Sequence[int], end: int) -> None:

@@ -15,34 +15,25 @@ from attnlab.cycle import Agent, machine_cycle
 from attnlab.experiment import Experiment
 from attnlab.exploration.base import Exploration
 from attnlab.guards import PartError, diagnose, verdict
-from attnlab.identities import check_balance
 from attnlab.results.files import write_bytes, write_json, write_parquet
-from attnlab.results.record import Event, Recorder
+from attnlab.results.record import Moment, Recorder
 from attnlab.results.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION, TABLES
 
 Progress = Callable[[int, int], None]  # (episodes done, cycles done)
 
 
-def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, float, float], learning: bool,
-                check: bool) -> tuple[list[Event], str | None, list[float]]:
-    """One episode from ``start`` (m, m, rad): its events, the cause of death or None, the penalty of each behaviour."""
+def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, float, float], learning: bool
+                ) -> tuple[list[Moment], str | None, list[float]]:
+    """One episode from ``start`` (m, m, rad): its history, the cause of death or None, each behaviour's penalty."""
     agent.start(*start)
     simulator, body = agent.simulator, agent.body
-    feeding = [i for i, need in enumerate(body.needs) if need.feeds_energy and not need.per_cycle]
-    growth = sum(body.needs[i].per_activation for i in feeding)
-    check = check and len(feeding) == sum(need.feeds_energy for need in body.needs)
-    balance = body.energy + sum([body.values[i] for i in feeding])
-    events, death = [], None
+    history, death = [(0, 0, body.energy, *body.values)], None
     while death is None and simulator.cycle < agent.max_cycles:
-        cycle = simulator.cycle
         active, death = machine_cycle(agent, exploration, learning)
-        if check:
-            before, balance = balance, body.energy + sum([body.values[i] for i in feeding])
-            check_balance(before, balance, body.e_u, body.e_nb, growth, active, simulator.cycle - cycle)
-        events.append(Event(cycle, active, body.energy, tuple(body.values)))
+        history.append((simulator.cycle, active, body.energy, *body.values))
     body.dead = death is not None
     penalties = [a.died(death, learning) if death else 0.0 for a in agent.attentions]
-    return events, death, penalties
+    return history, death, penalties
 
 
 def run_experiment(experiment: Experiment, run: str = "run", swept: Mapping[str, Any] | None = None,
@@ -69,8 +60,7 @@ def run_experiment(experiment: Experiment, run: str = "run", swept: Mapping[str,
             for episode in range(episodes):
                 if learning:
                     exploration.start(episode)
-                outcome = run_episode(agent, exploration, experiment.start_pose(phase, episode), learning,
-                                      s.check_identities)
+                outcome = run_episode(agent, exploration, experiment.start_pose(phase, episode), learning)
                 full = (s.record == "all" or (s.record == "validation" and phase == "validation")
                         or (s.record == "last" and index == last and episode == episodes - 1))
                 recorder.episode(agent, phase, episode, *outcome, full)

@@ -168,6 +168,6 @@ def cost_of(genome: list[float]) -> float:
         attention.learner.set(build(Function, functions[attention.behaviour.name], "learner"))
     exploration, cost = experiment.exploration("train"), 0.0
     for episode in range(episodes):
-        events, _, _ = run_episode(agent, exploration, experiment.start_pose("evolution", episode), False, False)
-        cost += look_cost * len(events) / agent.simulator.cycle - agent.simulator.cycle / agent.max_cycles
+        history, _, _ = run_episode(agent, exploration, experiment.start_pose("evolution", episode), False)
+        cost += look_cost * (len(history) - 1) / agent.simulator.cycle - agent.simulator.cycle / agent.max_cycles
     return cost / episodes

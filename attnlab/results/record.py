@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from typing import NamedTuple
 
 import numpy as np
 
@@ -11,17 +10,13 @@ from attnlab.attention import Attention
 from attnlab.cycle import Agent
 from attnlab.equations import safety as safety_at
 from attnlab.guards import check_commands, check_log
-from attnlab.identities import check_clock, check_safety
+from attnlab.identities import check_balance, check_clock, check_safety
+from attnlab.needs.base import Body
 from attnlab.results.schema import CELL_M
 from attnlab.worlds.base import Layout
 
 
-class Event(NamedTuple):
-    """A cycle in which somebody was active, with body and motion after the idle cycles that followed it."""
-    cycle: int
-    active: int
-    energy: float
-    needs: tuple[float, ...]
+Moment = tuple[float, ...]  # (cycles moved, behaviours active when the last stretch began, energy, *needs)
 
 
 class Recorder:
@@ -40,20 +35,22 @@ class Recorder:
         for name, value in row.items():
             columns[name].append(value)
 
-    def episode(self, agent: Agent, phase: str, episode: int, events: list[Event], death: str | None,
+    def episode(self, agent: Agent, phase: str, episode: int, history: list[Moment], death: str | None,
                 penalties: list[float], full: bool) -> None:
-        """Rows of one episode; ``full`` stores its cycles too."""
-        body, n = agent.body, agent.simulator.cycle
-        at = np.array([event.cycle for event in events])
-        lengths = np.diff(at, append=n)
-        remaining = np.repeat(at + lengths, lengths) - np.arange(n) - 1
-        energy = np.repeat([event.energy for event in events], lengths) + body.e_u * remaining
-        needs = {need.name: np.repeat([event.needs[i] for event in events], lengths) - need.per_cycle * remaining
+        """Rows of one episode; ``full`` stores its cycles too. ``history``: the state at the start and after each
+        stretch of an active cycle and the idle ones that followed it."""
+        body, n, moments = agent.body, agent.simulator.cycle, np.array(history)
+        reached = moments[:, 0].astype(np.int64)
+        lengths = np.diff(reached)
+        remaining = np.repeat(reached[1:], lengths) - np.arange(n) - 1
+        energy = np.repeat(moments[1:, 2], lengths) + body.e_u * remaining
+        needs = {need.name: np.repeat(moments[1:, 3 + i], lengths) - need.per_cycle * remaining
                  for i, need in enumerate(body.needs)}
         safety = self._safety(agent, n)
         path = agent.simulator.trace[:n + 1]
         steps = np.diff(path[:, :2], axis=0)
         if self.check:
+            _check_energy(body, moments, lengths)
             check_commands(agent)
             for attention in agent.attentions:
                 check_log(attention)
@@ -62,7 +59,7 @@ class Recorder:
                  for name, values in needs.items() for what in ("mean", "max")}
         wanting = _held(agent.attentions[0], n, [a.wanting for a in agent.attentions[0].log])
         self._add("episodes", **self.run_columns, phase=phase, episode=episode, cycles=n,
-                  survival=n / agent.max_cycles, death=death or "none", active_cycles=len(events),
+                  survival=n / agent.max_cycles, death=death or "none", active_cycles=len(lengths),
                   meals=_meals(body, "hunger"), drinks=_meals(body, "thirst"),
                   safety_mean=None if safety is None else float(safety.mean()),
                   safety_min=None if safety is None else float(safety.min()),
@@ -148,6 +145,15 @@ class Recorder:
                 self._add("coverage", run=run, phase=phase, x_cell=cell // self._cells[1],
                           y_cell=cell % self._cells[1], visits=int(visits[cell]))
         return self.tables
+
+
+def _check_energy(body: Body, moments: np.ndarray, lengths: np.ndarray) -> None:
+    """The balance of energy and needs, unless one of them grows by itself."""
+    feeding = [i for i, need in enumerate(body.needs) if need.feeds_energy]
+    if not any(body.needs[i].per_cycle for i in feeding):
+        balance = moments[:, 2] + moments[:, [3 + i for i in feeding]].sum(axis=1)
+        growth = sum(body.needs[i].per_activation for i in feeding)
+        check_balance(balance, body.e_u, body.e_nb, growth, moments[1:, 1], lengths)
 
 
 def _held(attention: Attention, n: int, values: list) -> np.ndarray:

@@ -85,9 +85,10 @@ def test_episode_means_are_those_of_the_cycles(recorded):
 
 
 def test_the_checks_notice():
-    check_balance(100.0, 102.0, e_u=1.0, e_nb=1.0, growth=2.0, active=3, cycles=1)
+    one = {"e_u": 1.0, "e_nb": 1.0, "growth": 2.0, "active": np.array([3]), "cycles": np.array([1])}
+    check_balance(np.array([100.0, 102.0]), **one)
     with pytest.raises(IdentityError):
-        check_balance(100.0, 103.0, e_u=1.0, e_nb=1.0, growth=2.0, active=3, cycles=1)
+        check_balance(np.array([100.0, 103.0]), **one)
     check_clock([0, 4, 5], [4, 1, 12], 10)
     with pytest.raises(IdentityError):
         check_clock([0, 4, 6], [4, 1, 12], 10)
