@@ -132,9 +132,11 @@ class Conditions:
 
     @cached_property
     def strata(self) -> list[tuple[str, ...]]:
-        """Combinations of ``settings`` (as texts) that have runs, in a stable order; [()] if nothing else differs."""
-        found = {key[1:] for key in self._by_key}
-        return sorted(found, key=lambda stratum: [_natural(value) for value in stratum])
+        """Combinations of ``settings`` (as texts) that have runs, those with a label in the order of the labels, then
+        by number and name; [()] if nothing else differs."""
+        found, order = {key[1:] for key in self._by_key}, list(self.labels)
+        return sorted(found, key=lambda stratum: [(order.index(value) if value in order else len(order),
+                                                   _natural(value)) for value in stratum])
 
     def runs(self, curiosity: str, stratum: tuple[str, ...] = ()) -> Runs:
         """The runs of a condition; empty if there are none."""
@@ -163,9 +165,12 @@ class Conditions:
         return self.labels.get(curiosity, curiosity)
 
     def stratum_name(self, stratum: tuple[str, ...]) -> str:
-        """What sets a combination apart: setting=value for a few settings, a number for many."""
+        """What sets a combination apart: setting=value for a few settings, the label of a single one that has it, a
+        number for many."""
         if len(self.settings) > 5:
             return f"combination {self.strata.index(stratum) + 1}"
+        if len(stratum) == 1 and list(self.labels.values()).count(self.labels.get(stratum[0])) == 1:
+            return self.labels[stratum[0]]
         return ", ".join(f"{name}={value}" for name, value in zip(self.settings, stratum, strict=True))
 
     def rows(self, table: str, runs: Mapping[int, str], equal: Mapping[str, Any]) -> pd.DataFrame:

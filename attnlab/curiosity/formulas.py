@@ -49,6 +49,6 @@ def squash(value: float, scale: float) -> float:
 
 
 def wundt(novelty: float, reward_at: float, punish_at: float, steepness: float, punishment: float) -> float:
-    """Berlyne's hedonic value of novelty: a reward sigmoid less a later punishment sigmoid of relative size."""
+    """Shaped like Wundt's curve: a reward sigmoid of novelty less a later punishment sigmoid of relative size."""
     return (1.0 / (1.0 + exp(-steepness * (novelty - reward_at)))
             - punishment / (1.0 + exp(-steepness * (novelty - punish_at))))

@@ -27,8 +27,9 @@ class Units:
 
 @register("curiosity", "habituation")
 class Habituation(Curiosity):
-    """Marsland, Nehmzow & Shapiro 2000 (Proc. SAB, p. 297) with the growing network of Marsland, Shapiro & Nehmzow 2002
-    (Neural Networks 15:1041), less its edges: units grow over the 16 sonars.
+    """Marsland, Nehmzow & Shapiro 2000 (SAB; arXiv cs/0006007) with the growing network of Marsland, Shapiro & Nehmzow
+    2002 (Neural Networks 15:1041), less its edges: units grow over the 16 sonars. A new unit moves and habituates at
+    once, and there are none at first (both ours).
 
     A unit's activity is exp(-||x - w||), x the ring's distances over ``range_m``, at most 1. Novelty (the liking) is
     the freshness y of the winner. When the winner is seen, y <- y + (alpha (1 - y) - 1)/tau, not below 0, and w moves

@@ -12,10 +12,11 @@ from attnlab.settings import setting
 
 @register("curiosity", "information_gap")
 class InformationGap(LitmanGap):
-    """Loewenstein 1994 (Psychol. Bull. 116:75): wanting is the gap, the entropy H(a)/ln n of the percept model; liking
-    is how much this percept closes it, 1 - exp(-max(0, H(a) - H(a'))/scale), a_i = prior + views of i in the window and
-    a' the same after this one. The squashing is ours. Memory: [a, the window], as in ``litman_gap``. Draws nothing at
-    random."""
+    """Loewenstein 1994 (Psychol. Bull. 116:75): wanting is the gap, the entropy H(a)/ln n of the percept model;
+    liking is how much this percept closes it, 1 - exp(-max(0, H(a) - H(a'))/scale), a_i = prior + views of i in the
+    window and a' the same after this one. Entropy as the gap and the squashing are ours; so is that the gap pulls
+    hardest when nothing is known (his curiosity grows as the gap narrows). Memory: [a, the window], as in
+    ``litman_gap``. Draws nothing at random."""
 
     @dataclass
     class Params(LitmanGap.Params):

@@ -12,8 +12,9 @@ from attnlab.settings import setting
 
 @register("curiosity", "learning_progress")
 class LearningProgress(Curiosity):
-    """Oudeyer & Kaplan 2007 (Front. Neurorobot. 1:6), after Schmidhuber 1991: liking is how much the prediction error
-    has fallen, gain * max(0, <e>(t - delay) - <e>(t)), at most 1, where <e> is the mean of ``window`` errors.
+    """Oudeyer & Kaplan 2007 (Front. Neurorobot. 1:6), after Schmidhuber 1991 (Proc. IJCNN 2:1458), who compares the
+    error before and after one update: liking is how much the prediction error has fallen, gain * max(0, <e>(t - delay)
+    - <e>(t)), at most 1 (gain and limit are ours), where <e> is the mean of ``window`` errors.
 
     One history of errors for each percept (a cell of the sensory space): that of predicting what followed it. What is
     known and what cannot be known are both boring. Memory: (transitions, errors by cell). Draws nothing at random.

@@ -18,7 +18,8 @@ class LitmanGap(Curiosity):
 
     Wanting is the entropy of the percept model over its maximum, H(a)/ln n with a_i = prior + views of i in the last
     ``length`` percepts: 1 when nothing is known, less the better the next percept is known. Liking is eq (12) over the
-    same window. Wanting is high above ``high_wanting``. Memory: [a, the window]. Draws nothing at random.
+    same window. Wanting is high above ``high_wanting``. Memory: [a, the window]. The entropy and its threshold are
+    ours. Draws nothing at random.
     """
     levels = (LOW, LH, HH)
 

@@ -11,9 +11,10 @@ from attnlab.settings import setting
 
 @register("curiosity", "optimal_arousal")
 class OptimalArousal(Over):
-    """Berlyne 1960, Wundt's curve; Spielberger & Starr 1994: liking is a reward sigmoid of novelty less a later
-    punishment sigmoid, 1/(1 + exp(-k(n - a))) - P/(1 + exp(-k(n - b))), at least 0; n is the liking of ``signal``, any
-    other model, whose memory this uses. Draws nothing at random."""
+    """Optimal arousal (Berlyne 1960; Spielberger & Starr 1994), shaped like Wundt's curve: liking is a reward
+    sigmoid of novelty less a later punishment, 1/(1 + exp(-k(n - a))) - P/(1 + exp(-k(n - b))), at least 0; n is the
+    liking of ``signal``, any model, whose memory this uses. Logistic sigmoids and numbers are ours. Draws nothing at
+    random."""
 
     @dataclass
     class Params:

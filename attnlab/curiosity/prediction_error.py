@@ -36,9 +36,10 @@ def unknowing(bins: int) -> Transitions:
 
 @register("curiosity", "prediction_error")
 class PredictionError(Curiosity):
-    """Schmidhuber 1991 (Proc. SAB, p. 222), first form: liking is the error 1 - p(percept | last percept) of a model
-    of the behaviour's percepts that learns at ``rate``. A noisy percept stays interesting for ever: the flaw that
-    ``learning_progress`` mends. Memory: :class:`Transitions`. Draws nothing at random."""
+    """Schmidhuber 1991 (Proc. SAB, p. 222), first form (1 - p as the error is ours): liking is the error 1 -
+    p(percept | last percept) of a model of the behaviour's percepts that learns at ``rate``. A noisy percept stays
+    interesting for ever: the flaw that ``learning_progress`` mends. Memory: :class:`Transitions`. Draws nothing at
+    random."""
 
     @dataclass
     class Params:

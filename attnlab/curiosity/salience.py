@@ -12,9 +12,10 @@ from attnlab.settings import setting
 
 @register("curiosity", "salience")
 class Salience(Curiosity):
-    """Singh, Barto & Chentanez 2004 (NIPS 17): on a salient event, liking 1 - p(percept | last percept) under a learned
-    model; 0 otherwise. An event is a change by at least ``jump`` percepts (theirs: a light or a sound changes; that a
-    jump of the percept stands for it is ours). Memory: :class:`Transitions`. Draws nothing at random."""
+    """Singh, Barto & Chentanez 2004 (NIPS 17): on a salient event, liking 1 - p(percept | last percept) under a
+    learned one-step model (theirs: the event's option model); 0 otherwise. An event is a change by at least ``jump``
+    percepts (theirs: a light or a sound changes; that a jump of the percept stands for it is ours). Memory:
+    :class:`Transitions`. Draws nothing at random."""
 
     @dataclass
     class Params:

@@ -16,7 +16,8 @@ class Surprise(Curiosity):
 
     The belief over percepts is Dirichlet(a), a_i = prior at first. With A = sum a, S = ln(a_i/A) - psi(a_i) + psi(A),
     the KL(prior||posterior), or psi(a_i+1) - psi(A+1) - ln(a_i/A), the other way (preset ``surprise_reverse``), nats.
-    Liking is 1 - exp(-S/scale); the squashing is ours. Each view: a <- forgetting * a + 1_i. Draws nothing at random.
+    Liking is 1 - exp(-S/scale); the squashing is ours. Each view: a <- forgetting * a + 1_i; S is that of
+    the update without forgetting. Draws nothing at random.
     """
 
     @dataclass

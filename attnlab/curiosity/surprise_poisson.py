@@ -15,10 +15,10 @@ class PoissonSurprise(Curiosity):
     """The surprise of Itti & Baldi 2009 (Vision Research 49:1295): a percept k = 1..n is taken as a Poisson count with
     a Gamma(alpha, beta) belief about its rate; alpha' = zeta alpha + k, beta' = zeta beta + 1.
 
-    S is the divergence of the two beliefs (``direction`` as in ``surprise``), nats; liking 1 - exp(-S/scale), the
-    squashing is ours. At first beta = 1/(1 - zeta), the value it tends to, and alpha = beta (n + 1)/2. Unlike
-    ``surprise`` it knows that percepts are ordered: a far one surprises more. Memory: [alpha, beta]. Draws nothing.
-    """
+    S is the divergence of the two beliefs (``direction`` as in ``surprise``; the prior is that before forgetting),
+    nats; liking 1 - exp(-S/scale), the squashing is ours. At first beta = 1/(1 - zeta), the value it tends to, and
+    alpha = beta (n + 1)/2. Unlike ``surprise`` it knows that percepts are ordered: a far one surprises more. Memory:
+    [alpha, beta]. Draws nothing."""
 
     @dataclass
     class Params:

@@ -14,7 +14,8 @@ from attnlab.settings import setting
 @register("exploration", "ucb1")
 class Ucb1(Exploration):
     """Auer et al. 2002 (Machine Learning 47:235), each state a bandit of its own: an action not yet tried there,
-    otherwise the one of highest Q + c sqrt(2 ln n / n_a), the first of equals. Draws nothing at random."""
+    otherwise the one of highest Q + c sqrt(2 ln n / n_a), the first of equals; c is ours (theirs is 1, for rewards
+    in [0, 1]). Draws nothing at random."""
 
     @dataclass
     class Params:

@@ -21,8 +21,9 @@ JOURNAL = "evolution.jsonl"
 
 @register("learner", "evolution")
 class Evolution(Monitor):
-    """Burattini, Di Nocera, Finzi & Rossi 2010: the monitoring functions are evolved. Differential Evolution (Storn &
-    Price 1997, J. Global Optim. 11:341; scipy's) searches lowest, highest and bend of each behaviour's linear function.
+    """Burattini et al. 2010, as cited by Di Nocera et al. 2014: the monitoring functions are evolved. Differential
+    Evolution (Storn & Price 1997, J. Global Optim. 11:341; scipy's) searches lowest, highest and bend of each
+    behaviour's linear function.
 
     Fitness, ours, is the outcome of episodes in the run's own world: mean survival - look_cost * mean share of cycles
     with somebody active. All candidates play the same start poses (stream ``start/evolution``). It happens before the

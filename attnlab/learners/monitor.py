@@ -31,7 +31,8 @@ SATISFY = {"lowest_mc": 12.0, "highest_mc": 1.0}  # a need: the greater, the mor
 
 @register("learner", "monitor")
 class Monitor(NoLearner):
-    """Burattini & Rossi 2008 (Adaptive Behavior 16:386): the clock's period is a function of the percept, set by hand.
+    """Burattini & Rossi 2008 (Int. J. Pattern Recognit. Artif. Intell. 22:987): the clock's period is a function of the
+    percept, set by hand.
 
     With x in [0, 1] the percept's place among the n bins: ``linear`` p = lowest + (highest - lowest) x^bend; ``table``
     one period a percept; ``derivative``, after Weber's law, p = longest / (1 + gain |s - s'| / (s' t)), s and s' the

@@ -11,9 +11,10 @@ from attnlab.settings import setting
 
 @register("learner", "q_lambda")
 class QLambda(QLearning):
-    """Watkins's Q(lambda) (Watkins 1989; Sutton & Barto 1998, 7.6): with delta = R + gamma max Q(s') - Q(s,a), every
-    Q(x,b) grows by alpha delta e(x,b); the trace e(s,a) is 1 when visited (replacing), fades by gamma lambda, and all
-    are cut when the next action is not a greedy one, and at the start of an episode. Draws nothing at random."""
+    """Watkins's Q(lambda) (Watkins 1989; Sutton & Barto 1998, 7.6, 7.8): with delta = R + gamma max Q(s') - Q(s,a),
+    every Q(x,b) grows by alpha delta e(x,b); the trace e(s,a) is 1 when visited (replacing), fades by gamma lambda,
+    and all are cut when the next action is not a greedy one, and at the start of an episode. Draws nothing at
+    random."""
     on_policy = True
 
     @dataclass

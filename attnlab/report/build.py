@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections import Counter
-from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from collections.abc import Collection
 from pathlib import Path
 
 from attnlab.audit.table import load_table
@@ -15,58 +14,12 @@ from attnlab.claims.files import Claims, load_claims
 from attnlab.claims.judge import Verdict, judge
 from attnlab.conditions import Conditions
 from attnlab.errors import ConfigError
-from attnlab.measures.rewards import Reward
-from attnlab.report import curves, economics, episode, found, multiverse, policies, provenance, space, table5, verdicts
-from attnlab.report.page import Section, Shown, page, table
+from attnlab.report import glance, multiverse, provenance, table5, verdicts
+from attnlab.report.figures import FIGURES, Figure
+from attnlab.report.page import Section, Shown, nothing_testable, page, table
 from attnlab.report.style import drawing, png_bytes, svg_bytes
 from attnlab.results.files import write_bytes
 from attnlab.results.load import Study, load
-
-
-@dataclass
-class Figure:
-    """A figure of the report: how it is drawn, what the paper shows there, how to say what was found."""
-    key: str
-    title: str
-    paper: str
-    draw: Callable
-    say: Callable
-
-
-def _rewards() -> list[tuple[str, Reward]]:
-    return [("reward ", Reward(Reward.Params())), ("extrinsic part ", Reward(Reward.Params(extrinsic=True)))]
-
-
-FIGURES = [
-    Figure("fig06_survival", "Fig 6: survival", "NCR survives better until about episode 250 and starts above 90 %; CR "
-           "reaches 100 % around episode 300, NCR not before 450.", curves.survival,
-           found.start_and_end("survival", " %", 100)),
-    Figure("fig07_rewards", "Fig 7: cumulative rewards", "CR's AVOID reward is unsatisfactory until about episode 200 "
-           "and converges from 300; NCR's EAT and DRINK rewards end higher, CR's global reward ends higher and "
-           "converges faster. CR is paid on another scale (eq 4), so its extrinsic part is drawn too.", curves.rewards,
-           found.validation(_rewards(), " UoR an episode")),
-    Figure("fig08a_needs", "Fig 8A: needs within an episode", "CR alternates eating and drinking in a rhythm; NCR "
-           "waits until it is very hungry or very thirsty.", episode.needs, found.meals),
-    Figure("fig08b_maximum_need", "Fig 8B: largest need of an episode", "NCR's largest need is on average always above "
-           "CR's.", curves.maximum_need, found.start_and_end("hunger_max", " UoE hunger", block=10, digits=0)),
-    Figure("fig09_safety", "Fig 9: safety", "CR is safer: 0.61 on average against 0.38.", curves.safety,
-           found.start_and_end("safety_mean", "", block=10, digits=2)),
-    Figure("fig10_energy", "Fig 10: energy", "CR keeps its energy above E_well, at a high and stable level.",
-           curves.energy, found.start_and_end("energy_mean", " UoE", block=10, digits=0)),
-    Figure("fig11_paths", "Fig 11: paths and coverage", "CR's traces of 500 episodes cover 50 % of the area, NCR's 44 "
-           "%, and CR's path seems smoother. Shade: visits in training of the first seed (dark: often); line: its last "
-           "recorded episode from the circle on; green: food, blue: water.", space.paths, found.coverage),
-    Figure("policies", "Learned policies", "NCR DRINK learns 12 in bins 1-4 and 1 in bins 5-6; CR with low curiosity "
-           "12 in 1-3 and 1 in 4-6; CR with high curiosity 1 or 2 (read 4) everywhere. Large: the period that most "
-           "seeds learned; small: how many of the seeds that visited "
-           "the bin; grey: never visited, or nothing learned.", policies.heat_maps,
-           found.policies),
-    Figure("attention_raster", "Who looked when", "Not in the paper. Each tick is an activation, its colour the period "
-           "until the next look; hunger and thirst below on the same axis.", episode.raster, found.looks),
-    Figure("attention_economics", "Attention economics", "The paper gives 443 activations of CR and 364 of NCR in "
-           "about 1150 cycles (39 and 32 in 100). Large marks are means with 95 % intervals, small ones seeds; grey: "
-           "baselines, if given.", economics.economics, found.costs),
-]
 
 
 def build(study_path: str | Path, out: str | Path | None, claims_name: str | None, baselines: str | Path | None,
@@ -83,13 +36,14 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
         raise ConfigError("--out", f"{target} cannot be written ({cause.strerror or cause})") from None
     judged = {conditions.stratum_name(s): judge(claims, conditions, dict(zip(conditions.settings, s, strict=True)))
               for s in conditions.strata}
-    first = next(iter(judged.values()), [])
+    telling = _telling(judged)
+    first = judged.get(telling) or next(iter(judged.values()), [])
     with drawing(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
         shown = [_draw(figure, conditions, others, first, target) for figure in FIGURES
                  if conditions.strata and (only is None or figure.key in only)]
         tables = _tables(claims, conditions, target)
-        sections = _sections(conditions, judged, tables, target)
+        sections = _sections(study, conditions, judged, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
             more, section = _multiverse(multiverse.analyse(conditions, judged), target)
             shown, sections = more + shown, [section, *sections]
@@ -101,7 +55,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
                 sections, provenance.block(study, conditions, claims))
     write_bytes(target / "index.html", text.encode())
     if not quiet:
-        _print(notes, tables, first, target)
+        _print(notes, tables if telling is not None else [], first, telling, target)
     return target / "index.html"
 
 
@@ -153,21 +107,32 @@ def _tables(claims: Claims, conditions: Conditions, target: Path) -> list[tuple[
     return tables
 
 
-def _sections(conditions: Conditions, judged: dict[str, list[Verdict]], tables: list[tuple[str, list[table5.Row]]],
-              target: Path) -> list[Section]:
-    """Table 5 and the claims, in the page and as CSV."""
+def _telling(judged: dict[str, list[Verdict]]) -> str | None:
+    """The first combination of settings in which a claim can be tested; None if there is none."""
+    return next((name for name, of in judged.items() if not nothing_testable(of)), None)
+
+
+def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdict]],
+              tables: list[tuple[str, list[table5.Row]]], target: Path) -> list[Section]:
+    """Conditions, Table 5 and claims, in the page and as CSV; what a study of other things cannot say is left out of
+    the page."""
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
-    sections = []
-    if tables:
+    sections, telling = [], _telling(judged)
+    if judged:
+        section, csv = glance.section(study)
+        write_bytes(target / "conditions.csv", csv)
+        sections.append(section)
+    if tables and telling is not None:
         html = "".join((f"<h3>{_escape(name)}</h3>" if name else "") + _table5(rows) for name, rows in tables[:4])
         html += ("<p class=small>Mean ± standard deviation over validation episodes; here: mean over seeds, deviation "
                  "over the episodes of all seeds. † The paper's text does not tell which of two cells this is.</p>")
         sections.append(Section("table5", "Table 5, side by side", html))
     if len(judged) > 1:
         write_bytes(target / "combinations.csv", multiverse.combinations_csv(conditions, judged))
-        sections.append(verdicts.matrix(judged))
-    for name, of in list(judged.items())[:1]:
-        sections.append(verdicts.section(of, name))
+        if telling is not None:
+            sections.append(verdicts.matrix(judged))
+    if telling is not None:
+        sections.append(verdicts.section(judged[telling], telling))
     return sections
 
 
@@ -221,7 +186,8 @@ def _lead(study: Study, conditions: Conditions) -> str:
         parts.append(f"{setting} in {', '.join(values[:8])}" + (" …" if len(values) > 8 else ""))
 
     def of(name: str) -> str:
-        return next(iter(dict.fromkeys(str((c.get(name) or {}).get("name", "?")) for c in conditions.configs.values())))
+        found = list(dict.fromkeys(str((c.get(name) or {}).get("name", "?")) for c in conditions.configs.values()))
+        return found[0] if len(found) == 1 else f"as set ({len(found)} of them)"
     config = next(iter(conditions.configs.values()))
     episodes = f"{config.get('train_episodes')} training and {config.get('validation_episodes')} validation episodes"
     same = [f"{name} {of(name)}" for name in ("simulator", "world", "learner", "exploration", "reading")
@@ -234,14 +200,14 @@ def _span(seeds: list[int]) -> str:
         ", ".join(map(str, seeds[:20]))
 
 
-def _print(notes: list[str], tables: list, judged: list[Verdict], target: Path) -> None:
+def _print(notes: list[str], tables: list, judged: list[Verdict], telling: str | None, target: Path) -> None:
     if tables:
-        name, rows = tables[0]
+        name, rows = next((pair for pair in tables if pair[0] == telling), tables[0])
         table5.print_table(rows, f"Table 5 side by side{f' ({name})' if name else ''}: paper, here, difference")
-    if judged:
+    if telling is not None:
         verdicts.print_table(judged)
     for note in notes:
         print(f"mind     {note}")
     print(f"figures  {target / 'figures'}")
-    print(f"tables   {target / 'table5.csv'}, {target / 'verdicts.csv'}")
+    print(f"tables   {', '.join(str(target / f'{name}.csv') for name in ('conditions', 'table5', 'verdicts'))}")
     print(f"page     {target / 'index.html'}")

@@ -10,7 +10,7 @@ from html import escape
 from pathlib import Path
 
 from attnlab.claims.files import Claims
-from attnlab.claims.judge import VERDICTS, Verdict
+from attnlab.claims.judge import UNTESTABLE, VERDICTS, Verdict
 
 CLASSES = dict(zip(VERDICTS, ("v-reproduced", "v-direction", "v-not", "v-contradicted", "v-untestable"), strict=True))
 MEANINGS = dict(zip(VERDICTS, (
@@ -72,10 +72,19 @@ def _notes(notes: Sequence[str]) -> str:
         "".join(f"<li>{escape(note)}</li>" for note in notes) + "</ul></div>"
 
 
+def nothing_testable(verdicts: Sequence[Verdict]) -> bool:
+    """Is this a study of other things than these claims?"""
+    return all(v.verdict == UNTESTABLE for v in verdicts)
+
+
 def headline(claims: Claims, verdicts: Sequence[Verdict]) -> str:
     """How many claims fared how, and which."""
     if not verdicts:
         return '<h2 id="verdicts">Verdicts</h2><p>There are no complete runs to judge by.</p>'
+    if nothing_testable(verdicts):
+        (reason, count), = Counter(v.reason for v in verdicts).most_common(1)
+        return (f'<h2 id="verdicts">Verdicts</h2><p>None of the {len(verdicts)} claims of <cite>{escape(claims.title)}'
+                f"</cite> can be tested here. {count} of them: {escape(reason)}. All reasons are in verdicts.csv.</p>")
     counts = Counter(v.verdict for v in verdicts)
     bar = "".join(f'<span class="{CLASSES[v]}" style="flex: {counts[v]}">{counts[v]}</span>' for v in VERDICTS
                   if counts[v])
@@ -99,7 +108,7 @@ def headline(claims: Claims, verdicts: Sequence[Verdict]) -> str:
 
 def _figure(shown: Shown, verdicts: Mapping[str, Verdict]) -> str:
     data = base64.b64encode(shown.png).decode()
-    mine = [verdicts[key] for key in shown.claims if key in verdicts]
+    mine = [] if nothing_testable(list(verdicts.values())) else [verdicts[k] for k in shown.claims if k in verdicts]
     chips = " ".join(f'<a href="#claim-{escape(v.id)}">{chip(v.verdict, f"{v.id} {v.verdict}")}</a>' for v in mine)
     told = f"<p>{chips}</p>" if chips else ""
     return (f'<figure id="{shown.key}"><h3>{escape(shown.title)}</h3>'

@@ -36,9 +36,10 @@ class Panel:
 
 
 def panels(conditions: Conditions) -> list[Panel]:
-    """Lines are the curiosities, panels the other settings. With one curiosity, the first setting makes the lines."""
+    """Lines are the curiosities, panels the other settings. Where a curiosity has no rival under the same settings, the
+    first setting makes the lines: generations of attention share their axes, though only one of them is curious."""
     curiosities = conditions.curiosities
-    if len(curiosities) > 1 or not conditions.settings:
+    if not one_line_each(conditions):
         colour, dash = colours(curiosities), dashes(curiosities)
         found = []
         for stratum in conditions.strata:
@@ -46,23 +47,28 @@ def panels(conditions: Conditions) -> list[Panel]:
                      for c in curiosities]
             found.append(Panel(conditions.stratum_name(stratum), [line for line in lines if line.runs.runs]))
         return found
-    only = curiosities[0]
     values = list(dict.fromkeys(stratum[0] for stratum in conditions.strata))
     colour, dash = colours([f"{v} " for v in values]), dashes(values)
     groups: dict[tuple, list[Line]] = {}
     for stratum in conditions.strata:
         value = stratum[0]
+        runs = next(runs for runs in (conditions.runs(c, stratum) for c in curiosities) if runs.runs)
         groups.setdefault(stratum[1:], []).append(
-            Line(cut(conditions.labels.get(value, value), 40), conditions.runs(only, stratum), colour[f"{value} "],
-                 dash[value]))
+            Line(cut(conditions.labels.get(value, value), 40), runs, colour[f"{value} "], dash[value]))
     names = conditions.settings[1:]
     return [Panel(", ".join(f"{n}={v}" for n, v in zip(names, rest, strict=True)), lines)
             for rest, lines in groups.items()]
 
 
+def one_line_each(conditions: Conditions) -> bool:
+    """Does every combination of settings have one curiosity?"""
+    return bool(conditions.settings) and all(sum(bool(conditions.runs(c, stratum).runs) for c in conditions.curiosities)
+                                             == 1 for stratum in conditions.strata)
+
+
 def title_of_lines(conditions: Conditions) -> str:
     """What the lines of a figure differ by."""
-    return "" if len(conditions.curiosities) > 1 or not conditions.settings else cut(conditions.settings[0], 40)
+    return cut(conditions.settings[0], 40) if one_line_each(conditions) else ""
 
 
 def shown(conditions: Conditions) -> tuple[list[Panel], str]:
@@ -87,13 +93,14 @@ def grid(count: int, height_in: float = 3.2, columns: int = 3, **sharing) -> tup
 
 
 def legend(figure: Figure, axes: list[Axes], title: str = "") -> None:
-    """One legend for all panels, above them."""
+    """One legend for all panels: above them, beside the title, or below them if there are too many names for that."""
     entries: dict[str, object] = {}
     for ax in axes:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     if entries:
-        figure.legend(list(entries.values()), list(entries), loc="outside upper right", ncol=min(5, len(entries)),
+        where = "outside upper right" if sum(map(len, entries)) + 6 * len(entries) < 60 else "outside lower center"
+        figure.legend(list(entries.values()), list(entries), loc=where, ncol=min(5, len(entries)),
                       title=title or None, columnspacing=1.6, handlelength=2.4)
 
 

@@ -15,7 +15,6 @@ from attnlab.needs.base import Body
 from attnlab.results.schema import CELL_M
 from attnlab.worlds.base import Layout
 
-
 Moment = tuple[float, ...]  # (cycles moved, behaviours active when the last stretch began, energy, *needs)
 
 

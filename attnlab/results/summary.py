@@ -17,8 +17,11 @@ def summary_frame(study: Study, runs: set[str] | None = None):
     condition = conditions(study)
     episodes = episodes.assign(condition=episodes["run"].map(condition))
     behaviours = behaviours.assign(condition=behaviours["run"].map(condition))
+    config = study.config(min(condition)) if condition else None
+    labels = [str(label) for label in ((config or {}).get("labels") or {}).values()]
     rows = []
-    for name, group in episodes.groupby("condition", sort=False):
+    for name, group in sorted(episodes.groupby("condition", sort=False),
+                              key=lambda item: labels.index(item[0]) if item[0] in labels else len(labels)):
         train, valid = group[group["phase"] == "train"], group[group["phase"] == "validation"]
         half = (train["episode"].max() + 1) / 2
         shown = valid if len(valid) else train
@@ -47,16 +50,19 @@ def conditions(study: Study) -> dict[str, str]:
 def print_summary(study: Study, runs: set[str], made: dict[str, Path], hints: dict[str, str]) -> None:
     """Print the table, where everything is (``made``: what -> path), and what to type next (``hints``: why ->
     command)."""
+    from rich import box
     from rich.console import Console
     from rich.table import Table
     frame = summary_frame(study, runs)
-    table = Table(title=f"{study.path.name}: means over seeds", title_justify="left")
+    table = Table(title=f"{study.path.name}: means over seeds", title_justify="left", box=box.SIMPLE_HEAD,
+                  padding=(0, 1), collapse_padding=True, pad_edge=False)
     names = list(study.behaviours["behaviour"].unique())
     heads = {"condition": "condition", "runs": "runs", "early": "survival\nearly", "late": "\nlate",
              "validation": "\nvalid.", "crashed": "crashed", "hunger": "hunger", "thirst": "thirst",
              "energy": "energy", "safety": "safety", "activations": "activations\n" + " ".join(names)}
     for key, head in heads.items():
-        table.add_column(head, justify="left" if key in ("condition", "activations") else "right", overflow="fold")
+        table.add_column(head, justify="left" if key in ("condition", "activations") else "right", overflow="fold",
+                         no_wrap=key != "condition")
     for row in frame.to_dict("records"):
         shares = {key: f"{row[key]:.1%}" if row[key] == row[key] else "-" for key in
                   ("early", "late", "validation", "crashed")}

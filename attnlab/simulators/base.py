@@ -44,7 +44,7 @@ class SimulatorContext:
 
 
 class Simulator(ABC):
-    """A robot in a world.
+    """A robot in a world. A simulator whose state is the trace alone writes sensors and ``advance`` only.
 
     ``trace`` is a (max_cycles + 1, 3) float array: the pose (x m, y m, heading rad) before the first cycle and after
     each; ``cycle`` counts the cycles moved since :meth:`place`.
@@ -58,13 +58,14 @@ class Simulator(ABC):
         self.trace = np.zeros((context.max_cycles + 1, 3))
         self.cycle = 0
 
-    @abstractmethod
     def place(self, x: float, y: float, heading: float) -> None:
         """Start anew: the robot at this pose (m, m, rad), at rest, cycle 0, the world as built."""
+        self.cycle = 0
+        self.trace[0] = x, y, heading
 
-    @abstractmethod
     def pose(self) -> tuple[float, float, float]:
         """(x m, y m, heading rad)."""
+        return tuple(self.trace[self.cycle].tolist())
 
     @abstractmethod
     def sonar(self, count: int = len(SONARS)) -> list[float]:
@@ -82,15 +83,16 @@ class Simulator(ABC):
         The crash rule is tested after every cycle, and the cycle in which it holds is the last one moved.
         """
 
-    @abstractmethod
     def snapshot(self) -> Any:
         """All that a later :meth:`restore` on this simulator needs to go on exactly from here."""
+        return self.cycle, self.trace[:self.cycle + 1].copy()
 
-    @abstractmethod
-    def restore(self, state: Any) -> None: ...
+    def restore(self, state: Any) -> None:
+        """Go on from a snapshot."""
+        self.cycle, path = state
+        self.trace[:self.cycle + 1] = path
 
-    @abstractmethod
-    def close(self) -> None:
+    def close(self) -> None:  # noqa: B027  one without a state of its own holds nothing
         """Give back what the simulator holds; safe to call twice."""
 
     def too_near(self) -> bool:

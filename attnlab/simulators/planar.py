@@ -49,13 +49,6 @@ class Planar(Simulator):
         self._ranges = {count: np.zeros(count) for count in range(1, len(BEAMS) + 1)}
         self._seen = np.zeros((self._cubes, 4))
 
-    def place(self, x: float, y: float, heading: float) -> None:
-        self.cycle = 0
-        self.trace[0] = x, y, heading
-
-    def pose(self) -> tuple[float, float, float]:
-        return tuple(self.trace[self.cycle].tolist())
-
     def sonar(self, count: int = len(BEAMS)) -> list[float]:
         ranges = self._ranges[count]
         self._sonar(self.trace, self.cycle, self._boxes, self._beams, self.params.sonar_range_m, SONAR_MIN_M, ranges)
@@ -84,16 +77,6 @@ class Planar(Simulator):
             return -moved, True
         self.cycle += moved
         return moved, False
-
-    def snapshot(self) -> tuple:
-        return self.cycle, self.trace[:self.cycle + 1].copy()
-
-    def restore(self, state: tuple) -> None:
-        self.cycle, path = state
-        self.trace[:self.cycle + 1] = path
-
-    def close(self) -> None:
-        """Nothing is held."""
 
 
 def _row(solid) -> tuple[float, ...]:

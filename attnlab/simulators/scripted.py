@@ -57,13 +57,6 @@ class Scripted(Simulator):
         now, before = self.at(self.cycle * self.dt_s), self.at((self.cycle - 1) * self.dt_s)
         return dist(now, (0.0, 0.0, 0.0)), dist(now, before) / self.dt_s
 
-    def place(self, x: float, y: float, heading: float) -> None:
-        self.cycle = 0
-        self.trace[0] = x, y, heading
-
-    def pose(self) -> tuple[float, float, float]:
-        return tuple(self.trace[self.cycle].tolist())
-
     def sonar(self, count: int = len(SONARS)) -> list[float]:
         return [self.params.sonar_range_m] * count
 
@@ -76,16 +69,6 @@ class Scripted(Simulator):
             self.cycle += 1
             self.trace[self.cycle] = x, y, (heading + pi) % (2 * pi) - pi
         return cycles, False
-
-    def snapshot(self) -> tuple:
-        return self.cycle, self.trace[:self.cycle + 1].copy()
-
-    def restore(self, state: tuple) -> None:
-        self.cycle, path = state
-        self.trace[:self.cycle + 1] = path
-
-    def close(self) -> None:
-        pass
 
 
 def check_keyframes(keyframes: list[list[float]]) -> tuple[list[float], list[Point]]:

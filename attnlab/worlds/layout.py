@@ -28,7 +28,8 @@ class WallParams:
     y1_m: float = setting(0.0, "one end", unit="m")
     x2_m: float = setting(0.0, "other end", unit="m")
     y2_m: float = setting(0.0, "other end", unit="m")
-    thickness_m: float = setting(0.05, "across", unit="m", above=0)
+    thickness_m: float = setting(0.25, "across; between the beams of the sonars the end of a thinner wall goes unheard",
+                                 unit="m", above=0)
 
 
 @dataclass

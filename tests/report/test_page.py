@@ -7,9 +7,13 @@ from html.parser import HTMLParser
 import pytest
 from small_study import write_run, write_study
 
+from attnlab.conditions import Conditions
 from attnlab.report import build_report, survival_picture
-from attnlab.report.build import FIGURES, build
+from attnlab.report.build import build
+from attnlab.report.figures import FIGURES
 from attnlab.report.page import PROVENANCE
+from attnlab.report.panels import panels
+from attnlab.results import load
 
 HOSTILE = "<script>alert(1)</script>\"'&<img src=x onerror=alert(1)>$\\frac{"
 
@@ -100,6 +104,21 @@ def test_one_condition_one_seed(tmp_path):
     page = words(study)
     assert "no complete run of CR" in page and "1 complete run of NCR" in page
     assert "untestable" in page
+
+
+def test_rivals_that_differ_by_more_than_curiosity_share_their_axes(tmp_path):
+    labels = {"older": "set by hand", "newer": "motivated"}
+    study = write_study(tmp_path / "ages", 2, ("none",), swept={"age": "older"}, labels=labels)
+    write_study(study, 2, ("litman",), swept={"age": "newer"}, labels=labels)
+    conditions = Conditions(load(study))
+    (panel,) = panels(conditions)
+    assert [line.name for line in panel.lines] == ["set by hand", "motivated"]  # in the order of the labels
+    assert [conditions.stratum_name(stratum) for stratum in conditions.strata] == ["set by hand", "motivated"]
+    page = words(study, "fig06_survival")
+    assert "None of the 27 claims" in page and "Claims one by one" not in page and "Table 5, side" not in page
+    assert "Conditions at a glance" in page
+    rows = (study / "report" / "conditions.csv").read_text().splitlines()
+    assert len(rows) == 3 and rows[0].startswith("condition,runs,early,late,validation,crashed,")
 
 
 def test_any_swept_setting_and_missing_runs(tmp_path):
