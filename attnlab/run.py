@@ -15,6 +15,7 @@ from attnlab.cycle import Agent, machine_cycle
 from attnlab.experiment import Experiment
 from attnlab.exploration.base import Exploration
 from attnlab.guards import PartError, diagnose, verdict
+from attnlab.processes import birth
 from attnlab.results.files import write_bytes, write_json, write_parquet
 from attnlab.results.record import Moment, Recorder
 from attnlab.results.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION, TABLES
@@ -91,7 +92,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     about = {"status": "running", "key": info["key"], "seed": config["seed"], "overrides": list(info["overrides"]),
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
              "condition": info.get("condition"), "versions": versions(), "claims": _claims(config),
-             "pid": os.getpid(), "host": platform.node(),
+             "pid": os.getpid(), "pid_birth": birth(os.getpid()), "host": platform.node(),
              "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
     write_json(folder / "run.json", about)
     write_bytes(folder / "config.yaml", OmegaConf.to_yaml(OmegaConf.create(dict(config))).encode())

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import platform
 import re
 import shutil
 from collections.abc import Mapping, Sequence
@@ -17,6 +16,7 @@ from attnlab.claims import claims_path
 from attnlab.errors import ConfigError
 from attnlab.experiment import NOT_IN_KEY, Experiment
 from attnlab.launch.settings import LocalCluster
+from attnlab.processes import is_running
 from attnlab.results.load import state_of
 from attnlab.results.schema import row_bytes
 from attnlab.settings import build
@@ -119,17 +119,6 @@ def _memory() -> int:
         return 2**62
 
 
-def _alive(about: Mapping[str, Any]) -> bool:
-    """Is the process that runs this still there? Told on its own machine only."""
-    if os.name != "posix" or about.get("host") != platform.node() or not isinstance(about.get("pid"), int):
-        return False
-    try:
-        os.kill(about["pid"], 0)
-    except OSError:
-        return False
-    return True
-
-
 def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[str, int]]:
     """(to run, complete already, why the ones to run are not complete: reason -> how many).
 
@@ -146,7 +135,7 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
         for folder in existing.get(job.key, []):
             status, _, about = state_of(folder)
             reason = status
-            if status == "running" and _alive(about):
+            if status == "running" and is_running(about):
                 raise ConfigError("study", f"{folder} is being run by process {about['pid']}",
                                   "Wait for it, or name another: study=...")
             if status == "complete" and about.get("key") == job.key:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from attnlab.processes import birth
 from attnlab.results import load
 from attnlab.results.schema import COLUMNS, TABLES
 
@@ -91,14 +92,15 @@ def test_two_at_once_are_refused(study, attnlab):
     """A run that another living process works at is left alone."""
     folder, _ = study
     run = sorted(folder.glob("*/run.json"))[0]
-    about = {**json.loads(run.read_text()), "status": "running", "pid": os.getpid()}
+    about = {**json.loads(run.read_text()), "status": "running", "pid": os.getpid(),
+             "pid_birth": birth(os.getpid())}
     run.write_text(json.dumps(about))
     again = attnlab("+experiment=cr_vs_ncr", "-m", "seed=0-1", *SHORT)
     assert again.returncode == 2
     assert f"is being run by process {os.getpid()}" in again.stderr
-    about["pid"] = 2**22 + 1  # no such process
-    run.write_text(json.dumps(about))
-    assert attnlab("+experiment=cr_vs_ncr", "-m", "seed=0-1", *SHORT).returncode == 0
+    for gone in ({"pid": 2**22 + 1}, {"pid_birth": about["pid_birth"] - 1}):  # no such process; its number used again
+        run.write_text(json.dumps({**about, **gone}))
+        assert attnlab("+experiment=cr_vs_ncr", "-m", "seed=0-1", *SHORT).returncode == 0
 
 
 def test_fresh_starts_over_and_makes_the_same_bytes(study, attnlab):

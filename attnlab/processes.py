@@ -1,0 +1,40 @@
+"""Is the process that began a run still at it?"""
+
+from __future__ import annotations
+
+import os
+import platform
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+
+def birth(pid: int) -> int | None:
+    """When a process started, in clock ticks since boot, so that a number used again is not taken for the old process;
+    None if it is gone (a zombie is), or 0 where the system does not tell."""
+    if not Path("/proc/self/stat").exists():
+        try:
+            os.kill(pid, 0)
+        except OSError:
+            return None
+        return 0
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return None
+    return None if fields[0] in "ZX" else int(fields[19])
+
+
+def is_running(about: Mapping[str, Any], patience_s: float = 1.0) -> bool:
+    """Is the process of a run.json still there? Told on its own machine only; one that was just killed is given
+    ``patience_s`` to go."""
+    pid = about.get("pid")
+    if os.name != "posix" or about.get("host") != platform.node() or not isinstance(pid, int):
+        return False
+    until = time.monotonic() + patience_s
+    while (found := birth(pid)) is not None and found == about.get("pid_birth", found):
+        if time.monotonic() >= until:
+            return True
+        time.sleep(0.05)
+    return False
