@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -234,8 +235,8 @@ def _text(value: Any) -> str:
 
 
 def _natural(value: str) -> tuple:
-    """Numbers by size before words by letter."""
+    """Numbers by size before words by letter; numbers within words by size."""
     try:
-        return (0, float(value), value)
+        return (0, float(value), ())
     except ValueError:
-        return (1, 0.0, value)
+        return (1, 0.0, tuple(int(part) if i % 2 else part for i, part in enumerate(re.split(r"(\d+)", value))))
