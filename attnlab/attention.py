@@ -91,13 +91,12 @@ class Attention:
         self.log.append(Activation(now.cycle, sigma, percept, level, self.period, wanting, liking, released, reward,
                                    extrinsic))
 
-    def died(self, cause: str, learning: bool) -> float:
-        """The robot died of ``cause``: the penalty this behaviour gets for its running period (0.0 if none)."""
-        r = self.reading
-        if self.state < 0 or (r.penalised == "responsible" and cause not in self.behaviour.charges):
+    def died(self, share: float, learning: bool) -> float:
+        """The robot died: the penalty this behaviour gets for its running period, ``share`` of all (0.0 if none)."""
+        if self.state < 0 or share == 0.0:
             return 0.0
-        penalty = r.penalty
-        if r.penalty_mix == "inside":
+        penalty = share * self.reading.penalty
+        if self.reading.penalty_mix == "inside":
             penalty = self.curiosity.mix(penalty, self.liking, self.wanting)
         if learning:
             self.learner.terminal(self.state, self.action, penalty)

@@ -9,6 +9,7 @@ from attnlab.behaviours.base import Senses
 from attnlab.exploration.base import Exploration
 from attnlab.fusion.base import Fusion
 from attnlab.needs.base import Body
+from attnlab.penalty.base import Penalty
 from attnlab.simulators.base import Simulator
 
 
@@ -19,6 +20,7 @@ class Agent:
     body: Body
     simulator: Simulator
     fusion: Fusion
+    penalty: Penalty
     max_cycles: int
 
     def __post_init__(self):
@@ -33,6 +35,11 @@ class Agent:
         self.now.start()
         for attention in self.attentions:
             attention.start()
+
+    def died(self, cause: str, learning: bool) -> list[float]:
+        """The robot died of ``cause``: the penalty of each behaviour."""
+        shares = self.penalty.shares(cause, [attention.behaviour for attention in self.attentions])
+        return [attention.died(share, learning) for attention, share in zip(self.attentions, shares, strict=True)]
 
 
 def machine_cycle(agent: Agent, exploration: Exploration, learning: bool) -> tuple[int, str | None]:

@@ -91,6 +91,7 @@ class Experiment:
             raise ConfigError("behaviours", "there are none", "behaviours=[avoid,eat,drink]")
         for group in ("needs", "fusion", "curiosity", "learner", "exploration"):
             registry.build_params(group, getattr(s, group), group)
+        registry.get("penalty", {"name": self.reading.penalised}, "reading.penalised")
         for name, node in s.behaviours.items():
             registry.build_params("behaviours", node, f"behaviours.{name}")
         self.simulator_spec = registry.build_params("simulator", s.simulator, "simulator")
@@ -165,7 +166,9 @@ class Experiment:
             attentions.append(Attention(behaviour, s.periods, curiosity, learner, r,
                                         stream(s.seed, "exploration", name)))
         body = registry.make("needs", s.needs, r).body(own_needs)
-        return Agent(attentions, body, simulator, registry.make("fusion", s.fusion, r), r.max_cycles)
+        fusion = registry.make("fusion", s.fusion, r)
+        penalty = registry.make("penalty", {"name": r.penalised}, r, "reading.penalised")
+        return Agent(attentions, body, simulator, fusion, penalty, r.max_cycles)
 
     def exploration(self, phase: str) -> Exploration:
         """How actions are chosen in this phase (train | validation)."""

@@ -62,12 +62,14 @@ def _unknown_key(text: str, arguments: Sequence[str]) -> ConfigError | None:
 def _nearest_key(key: str) -> ConfigError:
     from attnlab.store import GROUPS_OF_RUN, root_node
     head, _, last = key.rpartition(".")
+    from attnlab.reading import Reading
     if not head:
+        if key in Reading.__dataclass_fields__:
+            return ConfigError(key, "no such setting", f"Did you mean 'reading.{key}'?")
         return ConfigError(key, "no such setting", nearest(key, [*root_node(), *GROUPS_OF_RUN]))
     known: set[str] = set()
     group = head.split(".")[0]
     if group == "reading":
-        from attnlab.reading import Reading
         known = set(Reading.__dataclass_fields__)
     for spec in registry.parts.values():
         if spec.group == group and (group != "behaviours" or spec.name == head.rpartition(".")[2]):

@@ -49,7 +49,8 @@ def write(group: str, name: str, folder: Path) -> list[Path]:
 
 def how_to_run(group: str, name: str) -> str:
     """The command that uses the new part."""
-    return f"'behaviours=[avoid,eat,drink,{name}]'" if group == "behaviours" else f"{group}={name}"
+    return {"behaviours": f"'behaviours=[avoid,eat,drink,{name}]'", "penalty": f"reading.penalised={name}"}.get(
+        group, f"{group}={name}")
 
 
 def main(argv: Sequence[str]) -> int:

@@ -95,7 +95,8 @@ def describe(spec: registry.Spec, option: str) -> str:
                   + (f", for behaviours: behaviours.{option}.<name>=<value>)" if spec.group == "behaviours" else ")"),
                   *parameters(spec.params)]
     else:
-        lines.append("It takes no parameters.")
+        lines.append("It takes no parameters." + (f" Used as reading.penalised={option}." if spec.group == "penalty"
+                                                  else ""))
     if spec.presets and option == spec.name:
         lines += ["Presets:", *(f"  {name}: {values}" for name, values in spec.presets.items())]
     return "\n".join(lines)

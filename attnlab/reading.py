@@ -45,9 +45,8 @@ class Reading:
     reward_period: str = setting("elapsed", "p of eqs 7-9: the period that elapsed, or the one newly chosen",
                                  choices=("elapsed", "chosen"))
     penalty: float = setting(-1500.0, "reward when the robot dies", unit="UoR", high=0)
-    penalised: str = setting("responsible", "who gets the penalty: the behaviour in charge of what killed the robot "
-                             "(crash: AVOID, hunger: EAT, thirst: DRINK), or all (literal eqs 7-9)",
-                             choices=("responsible", "all"))
+    penalised: str = setting("responsible", "who gets the penalty (a part of the group penalty): the one in charge "
+                             "of what killed the robot (responsible), or all (literal eqs 7-9)")
     penalty_mix: str = setting("outside", "is the penalty outside of eq 4, or inside (scaled by 1 - w)",
                                choices=("outside", "inside"))
     q_update: str = setting("decision", "gamma once a decision, or gamma^period (semi-Markov)",

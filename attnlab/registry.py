@@ -28,7 +28,8 @@ from attnlab.paths import plugins_dir
 
 GROUPS = {  # folder of conf/ -> package of attnlab that holds the built-in parts
     "simulator": "simulators", "world": "worlds", "behaviours": "behaviours", "needs": "needs", "fusion": "fusion",
-    "curiosity": "curiosity", "learner": "learners", "exploration": "exploration", "measure": "measures",
+    "curiosity": "curiosity", "learner": "learners", "exploration": "exploration", "penalty": "penalty",
+    "measure": "measures",
 }
 NO_OPTION = ("measure",)  # parts of a report: configured in a claims file, where parameters may be required
 ENTRY_POINTS = "attnlab.plugins"

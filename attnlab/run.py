@@ -33,7 +33,7 @@ def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, floa
         active, death = machine_cycle(agent, exploration, learning)
         history.append((simulator.cycle, active, body.energy, *body.values))
     body.dead = death is not None
-    penalties = [a.died(death, learning) if death else 0.0 for a in agent.attentions]
+    penalties = agent.died(death, learning) if death else [0.0] * len(agent.attentions)
     return history, death, penalties
 
 

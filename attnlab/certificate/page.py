@@ -61,7 +61,7 @@ def page(certificate: dict[str, Any]) -> str:
         "are different runs of the same robot. Distributions (total variation distance, at activations) are compared "
         "over all episodes, before and after that; the test asks whether runs of the two simulators could exchange "
         "their names, given how far runs of one are apart by seed. Survival is a share of the episode's cycles, a mean "
-        "over validation "
-        "episodes of all seeds; policies are moved without further learning. The last row is not judged: wheels with "
-        "physics are another robot.", ""]
+        "over validation episodes of all seeds; policies are moved without further learning."
+        + (" The last row is not judged: wheels with physics are another robot."
+           if any("planar_on_wheels" in m for m in worlds.values()) else ""), ""]
     return "\n".join(lines)

@@ -50,7 +50,8 @@ def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None 
         "behaviours": lambda: BehaviourContext(r, stream(seed, "behaviour", name)),
         "learner": lambda: LearnerContext(r, behaviour, levels, PERIODS, r.percept_bins, stream(seed, "learner")),
         "simulator": lambda: SimulatorContext(world or layout(), r.dt_s, r.max_cycles),
-        "needs": lambda: r, "fusion": lambda: r, "exploration": lambda: None, "world": lambda: None,
+        "needs": lambda: r, "fusion": lambda: r, "penalty": lambda: r,
+        "exploration": lambda: None, "world": lambda: None,
     }
     return registry.make(group, node(group, name, **settings), contexts[group]())
 

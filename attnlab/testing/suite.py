@@ -7,13 +7,14 @@ from typing import Any
 
 from attnlab import registry
 from attnlab.errors import ConfigError
-from attnlab.testing import behaviour, body, common, curiosity, learner, world
+from attnlab.testing import behaviour, body, common, curiosity, learner, penalty, world
 
 Check = Callable[..., None]  # (name, **settings)
 
 CHECKS: dict[str, tuple] = {"curiosity": curiosity.CHECKS, "learner": learner.LEARNER,
                             "exploration": learner.EXPLORATION, "behaviours": behaviour.CHECKS, "needs": body.NEEDS,
-                            "fusion": body.FUSION, "simulator": world.SIMULATOR, "world": world.WORLD}
+                            "fusion": body.FUSION, "simulator": world.SIMULATOR, "world": world.WORLD,
+                            "penalty": penalty.CHECKS}
 
 
 def checks(group: str) -> dict[str, Check]:

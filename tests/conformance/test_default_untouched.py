@@ -10,7 +10,8 @@ from attnlab.testing import run
 
 CORE = {("curiosity", "litman"), ("curiosity", "none"), ("learner", "q_learning"), ("exploration", "softmax"),
         ("exploration", "greedy"), ("behaviours", "avoid"), ("behaviours", "eat"), ("behaviours", "drink"),
-        ("needs", "survival"), ("fusion", "min_speed_sum_turn"), ("simulator", "planar"), ("world", "layout")}
+        ("needs", "survival"), ("fusion", "min_speed_sum_turn"), ("penalty", "responsible"),
+        ("simulator", "planar"), ("world", "layout")}
 STUDY = {"train_episodes": 6, "validation_episodes": 2, "max_cycles": 400}
 
 

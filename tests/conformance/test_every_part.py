@@ -7,7 +7,8 @@ from attnlab.testing import checks
 from attnlab.testing.common import IN_A_RUN
 
 registry.load_all()
-CASES = [(spec.group, option, check) for spec in registry.parts.values() if spec.group in (*IN_A_RUN, "world")
+GROUPS = (*IN_A_RUN, "world", "penalty")
+CASES = [(spec.group, option, check) for spec in registry.parts.values() if spec.group in GROUPS
          for option in (spec.name, *spec.presets) for check in checks(spec.group)]
 
 SMALL = {("learner", "evolution"): {"generations": 1, "population": 5, "episodes": 1}}  # the same, sooner
@@ -19,5 +20,5 @@ def test_conforms(group, name, check):
 
 
 def test_every_group_has_a_suite_and_a_part():
-    assert {group for group, _, _ in CASES} == {*IN_A_RUN, "world"} <= set(registry.GROUPS)
-    assert all(len(checks(group)) > 2 for group in (*IN_A_RUN, "world"))
+    assert {group for group, _, _ in CASES} == set(GROUPS) <= set(registry.GROUPS)
+    assert all(len(checks(group)) > 2 for group in GROUPS)

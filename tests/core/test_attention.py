@@ -111,19 +111,18 @@ def test_commands_are_held_and_released():
     assert [x.released for x in drive_on.log] == [True, False]
 
 
-def test_penalty_of_the_responsible():
+def test_penalty_by_share():
     a = drive(attention([0.5]), Choose([3]), 1)
-    assert a.died("hunger", True) == 0.0
-    assert a.died("crash", True) == -1500.0
+    assert a.died(0.0, True) == 0.0
+    assert a.died(1.0, True) == -1500.0
     assert a.learner.q[3][3] == pytest.approx(-1200.0)
-    everyone = drive(attention([0.5], penalised="all"), Choose([3]), 1)
-    assert everyone.died("hunger", True) == -1500.0
+    assert drive(attention([0.5]), Choose([3]), 1).died(0.1, False) == -150.0
 
 
 def test_penalty_inside_the_mix():
     """w at E = 3833.5 is 0.5; liking of a percept never seen before is 1."""
     a = drive(attention([0.5], Litman, penalty_mix="inside"), Choose([3]), 1, energy=3833.5)
-    assert a.died("crash", False) == pytest.approx(0.5 * -1500 + 0.5 * 1.0)
+    assert a.died(1.0, False) == pytest.approx(0.5 * -1500 + 0.5 * 1.0)
 
 
 def test_levels_of_curiosity():

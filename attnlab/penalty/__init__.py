@@ -1,0 +1,1 @@
+"""Penalty: who pays for the robot's death."""
