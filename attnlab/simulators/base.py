@@ -92,7 +92,7 @@ class Simulator(ABC):
         self.cycle, path = state
         self.trace[:self.cycle + 1] = path
 
-    def close(self) -> None:  # noqa: B027  one without a state of its own holds nothing
+    def close(self) -> None:
         """Give back what the simulator holds; safe to call twice."""
 
     def too_near(self) -> bool:
