@@ -69,6 +69,11 @@ def _nearest_key(key: str) -> ConfigError:
         return ConfigError(key, "no such setting", nearest(key, [*root_node(), *GROUPS_OF_RUN]))
     known: set[str] = set()
     group = head.split(".")[0]
+    owners = sorted(s.name for s in registry.parts.values()
+                    if s.group == group and last in getattr(s.params, "__dataclass_fields__", {}))
+    if owners and group != "behaviours":
+        return ConfigError(key, f"the {group} chosen has no such setting",
+                           "It is one of " + ", ".join(f"{group}={owner}" for owner in owners[:6]))
     if group == "reading":
         known = set(Reading.__dataclass_fields__)
     for spec in registry.parts.values():

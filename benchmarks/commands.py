@@ -37,4 +37,4 @@ def timed(*arguments: str) -> dict[str, float | str]:
 
 
 COMMANDS = {"help": ("--help",), "smoke": ("+experiment=smoke",)}
-STUDY = ("+experiment=cr_vs_ncr", "-m", "seed=0-19", "simulator=planar", "report=false")
+STUDY = ("+experiment=cr_vs_ncr", "-m", "seed=0-19", "simulator=planar", "report=true")

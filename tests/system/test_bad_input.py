@@ -22,6 +22,8 @@ CASES = [
     (["study=../elsewhere"], "study", "folder"),
     (["curiosty=none"], "curiosty", "Did you mean 'curiosity'"),
     (["+foo=1"], "foo", "no such setting"),
+    (["learner.tau=3"], "learner.tau", "no such setting"),
+    (["learner.lam=0.5"], "learner.lam", "It is one of learner=q_lambda"),
     (["need_k=3"], "need_k", "Did you mean 'reading.need_k'"),
     (["reading.penalised=nobody"], "reading.penalised=nobody", "no penalty is called"),
     (["+experiment=cr_vs_ncrr"], "experiment=cr_vs_ncrr", "Did you mean 'cr_vs_ncr'"),
