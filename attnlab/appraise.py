@@ -134,23 +134,34 @@ def main(argv: Sequence[str]) -> int:
     registry.load_all()
     names = chosen(given.curiosity)
 
+    import pandas as pd
+
     from attnlab.appraisal import write
     from attnlab.experiment import Experiment
     from attnlab.fig1 import read_run
+    from attnlab.guards import verdict
     cycles, config = read_run(given.run)
     experiment = Experiment(config)
     reading, behaviours = experiment.reading, list(config["behaviours"])
     views = list(recorded(cycles, behaviours, reading.energy_start,
                           experiment.start_pose(cycles["phase"].iat[0], int(cycles["episode"].iat[0]))))
+    standard, told = probes(reading.percept_bins, reading.energy_max), {}
     with experiment.simulator() as simulator:
-        table = appraise(views, names, reading, simulator)
-    standard = probes(reading.percept_bins, reading.energy_max)
-    probed = {probe: appraise(shown, names, reading) for probe, shown in standard.items()}
+        for name in names:
+            try:
+                told[name] = (appraise(views, [name], reading, simulator),
+                              {probe: appraise(shown, [name], reading) for probe, shown in standard.items()})
+            except Exception as cause:  # noqa: BLE001  one model that fails harms no other
+                print(f"attnlab: curiosity={name} is left out: {verdict(cause)}", file=sys.stderr)
+    if not told:
+        return 1
+    table = pd.concat([rows for rows, _ in told.values()], ignore_index=True)
+    probed = {probe: pd.concat([rows[probe] for _, rows in told.values()], ignore_index=True) for probe in standard}
     out = given.out or given.run
     out.mkdir(parents=True, exist_ok=True)
-    for path in write(table, probed, names, out):
+    for path in write(table, probed, list(told), out):
         print(path)
-    return 0
+    return 0 if len(told) == len(names) else 1
 
 
 if __name__ == "__main__":

@@ -27,13 +27,27 @@ def normalise(argv: list[str]) -> list[str]:
                                        "--config-dir", "-c", "--cfg", "-i", "--info")
             continue
         overrides.append(_override(argument))
-    return flags + overrides
+    return flags + _one_list(overrides)
+
+
+def _one_list(overrides: list[str]) -> list[str]:
+    """``behaviours=[a,b] +behaviours=c`` as ``behaviours=[a,b,c]``; Hydra would drop the c without a word."""
+    lists = [o for o in overrides if o.startswith("behaviours=[") and o.endswith("]")]
+    more = [o for o in overrides if o.startswith("+behaviours=") and "," not in o]
+    if len(lists) != 1 or not more:
+        return overrides
+    names = [name.strip() for name in lists[0][len("behaviours=["):-1].split(",") if name.strip()]
+    names += [o.partition("=")[2] for o in more]
+    whole = f"behaviours=[{','.join(dict.fromkeys(names))}]"
+    return [whole if o == lists[0] else o for o in overrides if o not in more]
 
 
 def _override(argument: str) -> str:
     key, equals, value = argument.partition("=")
     if key == "experiment":
         return "+" + argument
+    if key == "labels":  # names of one's own, which Hydra would call unknown
+        return "++" + argument
     if equals and key in RANGED:
         return f"{key}={','.join(map(str, seeds(key, value)))}"
     return argument

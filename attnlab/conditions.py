@@ -169,10 +169,24 @@ class Conditions:
         """What sets a combination apart: setting=value for a few settings, the label of a single one that has it, a
         number for many."""
         if len(self.settings) > 5:
+            if "variant" in self.settings:
+                return stratum[self.settings.index("variant")]
             return f"combination {self.strata.index(stratum) + 1}"
         if len(stratum) == 1 and list(self.labels.values()).count(self.labels.get(stratum[0])) == 1:
             return self.labels[stratum[0]]
         return ", ".join(f"{name}={value}" for name, value in zip(self.settings, stratum, strict=True))
+
+    def named(self) -> dict[str, str]:
+        """What each run's condition is called where all are listed: run -> name, in the order of curiosities."""
+        found = {}
+        for stratum in self.strata:
+            rivals = [c for c in self.curiosities if self.runs(c, stratum).runs]
+            for curiosity in rivals:
+                name, where = self.name(curiosity), self.stratum_name(stratum)
+                alone = bool(where) and len(rivals) == 1 and where in self.labels.values()
+                text = where if alone else " ".join(filter(None, (name, where)))
+                found.update(dict.fromkeys(self.runs(curiosity, stratum).runs.values(), text))
+        return found
 
     def rows(self, table: str, runs: Mapping[int, str], equal: Mapping[str, Any]) -> pd.DataFrame:
         """Rows of runs (seed -> run) in a table."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import sys
 from collections.abc import Callable, Sequence
 
 from attnlab.errors import ConfigError
+
+UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC)
 
 
 def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = None) -> int:
@@ -21,3 +24,8 @@ def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = N
     except BrokenPipeError:  # | head
         sys.stderr.close()
         return 0
+    except OSError as cause:
+        if cause.errno not in UNWRITABLE:
+            raise
+        print(f"attnlab: {cause.filename or 'output'}: cannot be written ({cause.strerror})", file=sys.stderr)
+        return 2

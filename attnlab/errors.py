@@ -20,7 +20,9 @@ class ConfigError(Exception):
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """A hint with the nearest right name, then all of them."""
-    names = sorted(known)
-    close = get_close_matches(str(name), names, n=1, cutoff=0.4)
+    names, name = sorted(known), str(name)
+    starts = {known[:len(name)]: known for known in reversed(names)}  # gian: the start of gain_rad_s
+    close = get_close_matches(name, names, n=1, cutoff=0.6) or \
+        [starts[start] for start in get_close_matches(name, starts, n=1, cutoff=0.6)]
     hint = f"Did you mean '{close[0]}'? " if close else ""
-    return hint + f"Known: {', '.join(names)}"
+    return hint + (f"Known: {', '.join(names)}" if names else "There is none")

@@ -136,6 +136,11 @@ class Experiment:
             raise ConfigError(blame(cause), registry.describe(cause), "The part could not be constructed") from cause
         simulator = self.simulator_spec[0].name
         for attention in agent.attentions:
+            for need in attention.behaviour.feels:
+                if need not in agent.body.index:
+                    raise ConfigError(f"behaviours.{attention.behaviour.name}", f"nobody brings a need called '{need}'",
+                                      f"needs={self.settings.needs['name']} has none such: needs=survival, or leave "
+                                      f"{attention.behaviour.name} out")
             works_in = attention.behaviour.simulators
             if works_in and simulator not in works_in:
                 raise ConfigError(f"behaviours.{attention.behaviour.name}", f"does not work in simulator={simulator}",

@@ -14,6 +14,7 @@ def explain(cause: BaseException, arguments: Sequence[str]) -> ConfigError | Non
     """The user's error behind an exception out of Hydra, or None if it is ours."""
     from hydra.errors import HydraException
     from omegaconf.errors import OmegaConfBaseException
+    from yaml import MarkedYAMLError
     chain, link = [], cause
     while link is not None:
         chain.append(link)
@@ -21,6 +22,11 @@ def explain(cause: BaseException, arguments: Sequence[str]) -> ConfigError | Non
     for link in chain:
         if isinstance(link, ConfigError):
             return link
+    for link in chain:
+        if isinstance(link, MarkedYAMLError):
+            mark = link.problem_mark or link.context_mark
+            where = f"{mark.name}:{mark.line + 1}" if mark else "a config file"
+            return ConfigError(where, f"is no YAML ({link.problem})", "Look at the line above it too")
     if not any(isinstance(link, (HydraException, OmegaConfBaseException)) for link in chain):
         return None
     texts = [str(link) for link in chain]
@@ -62,10 +68,17 @@ def _unknown_key(text: str, arguments: Sequence[str]) -> ConfigError | None:
 def _nearest_key(key: str) -> ConfigError:
     from attnlab.store import GROUPS_OF_RUN, root_node
     head, _, last = key.rpartition(".")
+    from attnlab.experiment import ValidationSettings
     from attnlab.reading import Reading
     if not head:
         if key in Reading.__dataclass_fields__:
             return ConfigError(key, "no such setting", f"Did you mean 'reading.{key}'?")
+        owners = sorted({spec.group if spec.group != "behaviours" else f"behaviours.{spec.name}"
+                         for spec in registry.parts.values() if spec.group in GROUPS_OF_RUN
+                         and key in getattr(spec.params, "__dataclass_fields__", {})})
+        if owners:
+            return ConfigError(key, "no such setting",
+                               f"Did you mean {' or '.join(f'{owner}.{key}' for owner in owners[:4])}?")
         return ConfigError(key, "no such setting", nearest(key, [*root_node(), *GROUPS_OF_RUN]))
     known: set[str] = set()
     group = head.split(".")[0]
@@ -74,6 +87,8 @@ def _nearest_key(key: str) -> ConfigError:
     if owners and group != "behaviours":
         return ConfigError(key, f"the {group} chosen has no such setting",
                            "It is one of " + ", ".join(f"{group}={owner}" for owner in owners[:6]))
+    if group == "validation":
+        known = set(ValidationSettings.__dataclass_fields__)
     if group == "reading":
         known = set(Reading.__dataclass_fields__)
     for spec in registry.parts.values():

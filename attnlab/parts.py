@@ -54,7 +54,8 @@ def named_configs() -> dict[tuple[str, str], Path]:
     """Options that exist as a yaml file alone: (group, name) -> file."""
     taken = {(spec.group, option) for spec in registry.parts.values() for option in options(spec)}
     return {(file.parent.name, file.stem): file for group in ("reading", *registry.GROUPS)
-            for file in sorted((conf_dir() / group).glob("*.yaml")) if (group, file.stem) not in taken}
+            for folder in (conf_dir(), *registry.config_folders()) for file in sorted((folder / group).glob("*.yaml"))
+            if (group, file.stem) not in taken}
 
 
 def kind_of(hint: typing.Any) -> str:

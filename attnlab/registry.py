@@ -13,6 +13,7 @@ cause when somebody asks for it by name; the others go on.
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import importlib
 import inspect
 import os
@@ -24,7 +25,7 @@ from typing import Any
 
 from attnlab import settings
 from attnlab.errors import ConfigError, nearest
-from attnlab.paths import plugins_dir
+from attnlab.paths import PACKAGE, plugins_dir
 
 GROUPS = {  # folder of conf/ -> package of attnlab that holds the built-in parts
     "simulator": "simulators", "world": "worlds", "behaviours": "behaviours", "needs": "needs", "fusion": "fusion",
@@ -130,6 +131,23 @@ def unknown(group: str, name: str, where: str, known: list[str] | None = None) -
     return ConfigError(f"{where}={name}", f"no {group} is called '{name}'", nearest(name, names))
 
 
+def plugin_hashes(config: Mapping[str, Any]) -> dict[str, str]:
+    """Plugin and package files that a run's config names parts of: file -> sha256, so that a run knows its code."""
+    words, nodes = set(), [config]
+    while nodes:
+        node = nodes.pop()
+        if isinstance(node, Mapping):
+            words |= set(map(str, node))
+            nodes += node.values()
+        elif isinstance(node, (list, tuple)):
+            nodes += node
+        elif isinstance(node, str):
+            words.add(node)
+    files = {Path(spec.origin) for spec in parts.values()
+             if not words.isdisjoint((spec.name, *spec.presets)) and not Path(spec.origin).is_relative_to(PACKAGE)}
+    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest()[:16] for file in sorted(files) if file.is_file()}
+
+
 def describe(cause: BaseException) -> str:
     """One line: the error's type, message, and for a syntax error its line."""
     line = f" (line {cause.lineno})" if isinstance(cause, SyntaxError) and cause.lineno else ""
@@ -139,6 +157,10 @@ def describe(cause: BaseException) -> str:
 
 def build_params(group: str, node: Mapping[str, Any], where: str) -> tuple[Spec, Any]:
     """The part a node names, and its checked parameters."""
+    if isinstance(node, Mapping) and node and not (node.get("part") or node.get("name")):
+        known = sorted(s.name for s in parts.values() if s.group == group)
+        raise ConfigError(where, f"the {group} file chosen does not say which part it sets",
+                          f"Write 'part: {known[0]}' into it (known: {', '.join(known)})")
     if not isinstance(node, Mapping) or not (node.get("part") or node.get("name")):
         raise ConfigError(where, f"expected the name of a {group}, got {node!r}",
                           nearest("", [s.name for s in parts.values() if s.group == group]))

@@ -91,7 +91,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     started = time.perf_counter()
     about = {"status": "running", "key": info["key"], "seed": config["seed"], "overrides": list(info["overrides"]),
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
-             "condition": info.get("condition"), "versions": versions(), "claims": _claims(config),
+             "condition": info.get("condition"), "plugins": info.get("plugins", {}),
+             "versions": versions(), "claims": _claims(config),
              "pid": os.getpid(), "pid_birth": birth(os.getpid()), "host": platform.node(),
              "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
     write_json(folder / "run.json", about)

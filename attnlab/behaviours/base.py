@@ -77,13 +77,14 @@ class Behaviour(ABC):
     """One attentional behaviour (AIRM): percept, releaser and motor schema.
 
     ``sigma_low`` and ``sigma_high`` bound the percept sigma; ``charges`` are the causes of death it answers for
-    (``crash`` or the name of a need); ``needs`` are needs of its own that it brings along; ``simulators`` are those it
-    can work in, all if empty.
+    (``crash`` or the name of a need); ``needs`` are needs of its own that it brings along, ``feels`` names those that
+    somebody must bring; ``simulators`` are those it can work in, all if empty.
     """
     name: str
     sigma_low: float = 0.0
     sigma_high: float = 1.0
     charges: tuple[str, ...] = ()
+    feels: tuple[str, ...] = ()
     simulators: tuple[str, ...] = ()
 
     def __init__(self, params, context: BehaviourContext):

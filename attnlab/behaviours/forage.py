@@ -36,7 +36,7 @@ class Forage(Behaviour):
         r = self.reading
         self.sigma_high = r.need_max
         self.sigma_low = r.need_min if r.percept_domain == "min_to_max" else 0.0
-        self.charges = (self.need, "energy")
+        self.charges, self.feels = (self.need, "energy"), (self.need,)
         self.start()
 
     def start(self) -> None:

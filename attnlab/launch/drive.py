@@ -18,8 +18,10 @@ def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
     first = jobs[0].config
     todo, done, reasons = split(jobs, first["fresh"])
     folder = jobs[0].folder.parent
+    why = ", ".join(f"{count} {reason}" for reason, count in reasons.items())
+    if not done and set(reasons) - {"missing"}:
+        print(f"{folder}: no run is complete ({why})")
     if done:
-        why = ", ".join(f"{count} {reason}" for reason, count in reasons.items())
         print(f"{folder}: {len(done)} of {len(jobs)} runs are complete already"
               + (f"; running the other {len(todo)} ({why})" if todo else "; nothing to run")
               + ". fresh=true runs all again.")
@@ -47,8 +49,10 @@ def _show(folder: Path, jobs: Sequence[Job], config: dict, typed: Sequence[str])
     from attnlab.results.load import Study
     from attnlab.results.summary import print_summary
     study = Study(folder)
-    names = {job.run for job in jobs}
-    if not any(run in names for run in study.complete):
+    labels = [str(label) for label in config["labels"].values()]
+    named = {job.run: job.condition for job in sorted(jobs, key=lambda job: labels.index(job.condition)
+                                                      if job.condition in labels else len(labels))}
+    if not any(run in named for run in study.complete):
         return
     made: dict[str, Path] = {}
     if config["picture"]:
@@ -59,7 +63,11 @@ def _show(folder: Path, jobs: Sequence[Job], config: dict, typed: Sequence[str])
     hints = {} if config["report"] else {"next": f"python -m attnlab.report {shlex.quote(str(folder))}"}
     if config["simulator"]["name"] == "planar":
         hints["on pybullet"] = "python -m attnlab " + shlex.join(_on_pybullet(typed, folder.name))
-    print_summary(study, names, {k: v for k, v in made.items() if v}, hints)
+    others = len(set(study.complete) - set(named))
+    if others:
+        hints["mind"] = (f"{folder} holds {others} more run{'s' * (others > 1)} of other settings, which the picture "
+                         "and the report show too; study=NAME keeps studies apart")
+    print_summary(study, named, {k: v for k, v in made.items() if v}, hints)
 
 
 def _on_pybullet(typed: Sequence[str], study: str) -> list[str]:

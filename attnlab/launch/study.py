@@ -17,6 +17,7 @@ from attnlab.errors import ConfigError
 from attnlab.experiment import NOT_IN_KEY, Experiment
 from attnlab.launch.settings import LocalCluster
 from attnlab.processes import is_running
+from attnlab.registry import plugin_hashes
 from attnlab.results.load import state_of
 from attnlab.results.schema import row_bytes
 from attnlab.settings import build
@@ -40,7 +41,7 @@ class Job:
     @property
     def info(self) -> dict[str, Any]:
         return {"run": self.run, "key": self.key, "overrides": self.overrides, "swept": self.swept,
-                "condition": self.condition}
+                "condition": self.condition, "plugins": plugin_hashes(self.config)}
 
 
 def run_key(config: Mapping[str, Any]) -> str:
@@ -140,6 +141,8 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
                                   "Wait for it, or name another: study=...")
             if status == "complete" and about.get("key") == job.key:
                 job.folder = folder
+                if about.get("plugins") not in (None, job.info["plugins"]):
+                    reason = "made before its plugin was changed"
                 break
         if reason == "complete" and not fresh:
             done.append(job)

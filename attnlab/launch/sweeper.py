@@ -60,6 +60,9 @@ class StudySweeper(Sweeper):
         merged = {override.get_key_element(): override for override in parser.parse_overrides(params)}
         merged.update(given)  # what is typed replaces what the experiment sweeps
         swept = [key.lstrip("+~") for key, override in merged.items() if override.is_sweep_override()]
+        for name in ("study", "outputs", "fresh", "cluster", "labels"):
+            if name in swept:
+                raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
         self._check_size(merged.values())
         variants = read_variants(OmegaConf.to_container(self.config.variants) if self.config.variants else None)
         choices = [[f"{key}={value}" for value in override.sweep_string_iterator()] if override.is_sweep_override()

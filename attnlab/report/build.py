@@ -26,6 +26,8 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
           quiet: bool, only: Collection[str] | None = None) -> Path:
     """See :func:`attnlab.report.build_report`; ``only`` names the figures to draw, all if left out."""
     study = load(study_path)
+    if not len(study.runs):
+        raise ConfigError(str(study.path), "is no study: there are no runs in it", "Give a folder of outputs/")
     claims = load_claims(claims_name or _claims_of(study))
     conditions = Conditions(study, claims.labels)
     others = Conditions(load(baselines)) if baselines else None
@@ -51,7 +53,8 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     notes = provenance.notes(study, conditions, claims)
     if not conditions.strata:
         notes.insert(0, "there is no complete run in this study, so there is nothing to draw or to judge")
-    text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first, shown,
+    text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first,
+                telling if telling is not None and len(judged) > 1 else "", shown,
                 sections, provenance.block(study, conditions, claims))
     write_bytes(target / "index.html", text.encode())
     if not quiet:
@@ -119,7 +122,7 @@ def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdi
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
     sections, telling = [], _telling(judged)
     if judged:
-        section, csv = glance.section(study)
+        section, csv = glance.section(study, conditions)
         write_bytes(target / "conditions.csv", csv)
         sections.append(section)
     if tables and telling is not None:
@@ -205,7 +208,7 @@ def _print(notes: list[str], tables: list, judged: list[Verdict], telling: str |
         name, rows = next((pair for pair in tables if pair[0] == telling), tables[0])
         table5.print_table(rows, f"Table 5 side by side{f' ({name})' if name else ''}: paper, here, difference")
     if telling is not None:
-        verdicts.print_table(judged)
+        verdicts.print_table(judged, telling)
     for note in notes:
         print(f"mind     {note}")
     print(f"figures  {target / 'figures'}")

@@ -152,7 +152,8 @@ def _finish(figure: Figure, axes: list[Axes], conditions: Conditions, name: str,
             ax.set_xlabel(f"training episodes (means of {block})" if block > 1 else "training episodes")
     figure.supylabel(unit, fontsize=9.5)
     for ax in axes:
-        ax.xaxis.get_major_locator().set_params(integer=True)
+        if ax.lines:  # an empty panel has no ticks to speak of
+            ax.xaxis.get_major_locator().set_params(integer=True)
     legend(figure, axes, title_of_lines(conditions))
     under = f"{seeds_note(conditions)}\n{note}" if note else seeds_note(conditions)
     figure.suptitle(f"{name}\n{under}", x=0.01, ha="left", fontsize=9.5)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from attnlab.conditions import Conditions
 from attnlab.report.page import Section, table
 from attnlab.results.load import Study
 from attnlab.results.summary import summary_frame
@@ -14,9 +15,9 @@ FORMS = {"runs": "d", "early": ".1%", "late": ".1%", "validation": ".1%", "crash
          "thirst": ".0f", "energy": ".0f", "safety": ".2f"}
 
 
-def section(study: Study) -> tuple[Section, bytes]:
+def section(study: Study, conditions: Conditions) -> tuple[Section, bytes]:
     """The table for the page (of the first 40 conditions) and as CSV (of all)."""
-    frame = summary_frame(study)
+    frame = summary_frame(study, conditions.named())
     names = ", ".join(study.behaviours["behaviour"].unique())
     rows = [["-" if value != value else format(value, FORMS[key]) if key in FORMS else str(value)
              for key, value in row.items()] for row in frame.head(MOST).to_dict("records")]

@@ -43,9 +43,10 @@ def chip(verdict: str, text: str = "") -> str:
     return f'<span class="chip {CLASSES[verdict]}">{escape(text or verdict)}</span>'
 
 
-def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict],
+def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict], where: str,
          figures: Sequence[Shown], sections: Sequence[Section], provenance: str) -> str:
-    """The whole page. ``sections`` follow the figures; ``provenance`` is HTML."""
+    """The whole page. ``where``: the settings that the verdicts are for, if there are others; ``sections`` follow the
+    figures; ``provenance`` is HTML."""
     style = (Path(__file__).parent / "style.css").read_text()
     links = [("verdicts", "Verdicts"), ("figures", "Figures"), *((s.key, s.title) for s in sections),
              ("provenance", "Provenance")]
@@ -57,7 +58,7 @@ def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: 
         '<link rel="icon" href="data:,">', f"<title>{escape(title)}</title>", f"<style>\n{style}</style>", "</head>",
         "<body>", "<main>", f"<h1>{escape(title)}</h1>", f'<p class="lead">{escape(lead)}</p>',
         _notes(notes), "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>",
-        headline(claims, verdicts), '<h2 id="figures">Figures</h2>',
+        headline(claims, verdicts, where), '<h2 id="figures">Figures</h2>',
         *(_figure(shown, {v.id: v for v in verdicts}) for shown in figures),
         *(f'<h2 id="{s.key}">{escape(s.title)}</h2>\n{s.html}' for s in sections),
         PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1],
@@ -77,8 +78,8 @@ def nothing_testable(verdicts: Sequence[Verdict]) -> bool:
     return all(v.verdict == UNTESTABLE for v in verdicts)
 
 
-def headline(claims: Claims, verdicts: Sequence[Verdict]) -> str:
-    """How many claims fared how, and which."""
+def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> str:
+    """How many claims fared how, and which; ``where``: under which settings."""
     if not verdicts:
         return '<h2 id="verdicts">Verdicts</h2><p>There are no complete runs to judge by.</p>'
     if nothing_testable(verdicts):
@@ -100,8 +101,9 @@ def headline(claims: Claims, verdicts: Sequence[Verdict]) -> str:
     source = f", {escape(claims.source)}" if claims.source else ""
     number = f"{len(verdicts)} claim{'s' * (len(verdicts) > 1)}"
     return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{number} of <cite>{escape(claims.title)}</cite>'
-            f"{source}, judged by the rules of {escape(claims.path.name)}: the claimed direction holds in "
-            f"<b>{holds}</b>, and in {counts[VERDICTS[0]]} of these any number given is met too.</p>\n"
+            f"{source}, judged by the rules of {escape(claims.path.name)}"
+            f"{f' for <b>{escape(where)}</b> alone (the others: below)' if where else ''}: the claimed direction holds "
+            f"in <b>{holds}</b>, and in {counts[VERDICTS[0]]} of these any number given is met too.</p>\n"
             f'<div class="bar" role="img" aria-label="{holds} of {len(verdicts)} claims hold">{bar}</div>\n'
             f'<div class="key small">{key}</div>\n<ul class="headline">{"".join(items)}</ul>')
 

@@ -24,7 +24,7 @@ def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
         named = [f"{row.run} ({row.why})" if row.why else row.run for row in group.head(8).itertuples()]
         more = f" and {len(group) - 8} more" if len(group) > 8 else ""
         found.append(f"{len(group)} of {len(runs)} runs are left out, {status}: {'; '.join(named)}{more}")
-    found += conditions.notes
+    found += conditions.notes + _small(conditions)
     found += _uneven(conditions)
     started = Counter((study.about(run).get("claims") or {}).get("sha256") for run in conditions.configs)
     unknown = started.pop(None, 0)
@@ -38,6 +38,16 @@ def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
     if len(versions) > 1:
         found.append(f"the runs were made by {len(versions)} different sets of versions (see Provenance)")
     return found
+
+
+def _small(conditions: Conditions) -> list[str]:
+    """A study that is too small for verdicts."""
+    seeds = max((len(conditions.runs(c, s).runs) for s in conditions.strata for c in conditions.curiosities), default=0)
+    train = max((config.get("train_episodes") or 0 for config in conditions.configs.values()), default=0)
+    if not conditions.configs or (seeds >= 6 and train >= 250):
+        return []
+    return [f"a small study ({seeds} seed{'s' * (seeds != 1)} a condition, {train} training episodes; the paper trains "
+            "for 500): verdicts say little, and with fewer than 6 seeds no p can fall below 0.05"]
 
 
 def _uneven(conditions: Conditions) -> list[str]:

@@ -81,14 +81,14 @@ def _plain(value: float | None) -> str:
     return "" if value is None or math.isnan(value) else f"{value:.6g}"
 
 
-def print_table(verdicts: Sequence[Verdict]) -> None:
-    """Verdicts in the terminal."""
+def print_table(verdicts: Sequence[Verdict], where: str = "") -> None:
+    """Verdicts in the terminal; ``where``: the settings they are for, if there are others."""
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
     colours = {"reproduced": "green", "direction only": "cyan", "not reproduced": "", "contradicted": "red",
                "untestable": "dim"}
-    shown = Table(title="Claims", title_justify="left")
+    shown = Table(title=Text(f"Claims ({where})" if where else "Claims"), title_justify="left")
     for head in ("claim", "", "verdict", "effect d", "p, Holm"):
         shown.add_column(head, justify="right" if head in ("effect d", "p, Holm") else "left")
     for v in verdicts:

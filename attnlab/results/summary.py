@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from attnlab.results.load import Study
 
 
-def summary_frame(study: Study, runs: set[str] | None = None):
+def summary_frame(study: Study, named: Mapping[str, str]):
     """One row a condition (pandas frame): means over seeds of survival (early and late half of training, validation),
-    needs, activations and safety (all of validation, or of training where there is none)."""
+    needs, activations and safety (all of validation, or of training where there is none). ``named``: the runs to take,
+    and what the condition of each is called; rows come in that order."""
     import pandas as pd
-    episodes, behaviours = study.episodes, study.behaviours
-    if runs is not None:
-        episodes, behaviours = (frame[frame["run"].isin(runs)] for frame in (episodes, behaviours))
-    condition = conditions(study)
-    episodes = episodes.assign(condition=episodes["run"].map(condition))
-    behaviours = behaviours.assign(condition=behaviours["run"].map(condition))
-    config = study.config(min(condition)) if condition else None
-    labels = [str(label) for label in ((config or {}).get("labels") or {}).values()]
+    episodes, behaviours = (frame[frame["run"].isin(set(named))] for frame in (study.episodes, study.behaviours))
+    episodes = episodes.assign(condition=episodes["run"].map(named))
+    behaviours = behaviours.assign(condition=behaviours["run"].map(named))
     rows = []
-    for name, group in sorted(episodes.groupby("condition", sort=False),
-                              key=lambda item: labels.index(item[0]) if item[0] in labels else len(labels)):
+    for name in dict.fromkeys(named.values()):
+        group = episodes[episodes["condition"] == name]
+        if not len(group):
+            continue
         train, valid = group[group["phase"] == "train"], group[group["phase"] == "validation"]
         half = (train["episode"].max() + 1) / 2
         shown = valid if len(valid) else train
@@ -38,22 +37,13 @@ def summary_frame(study: Study, runs: set[str] | None = None):
     return pd.DataFrame(rows)
 
 
-def conditions(study: Study) -> dict[str, str]:
-    """The name of each run's condition, by run."""
-    found = {}
-    for run in study.complete:
-        about = study.about(run)
-        found[run] = about.get("condition") or about.get("curiosity") or "all"
-    return found
-
-
-def print_summary(study: Study, runs: set[str], made: dict[str, Path], hints: dict[str, str]) -> None:
-    """Print the table, where everything is (``made``: what -> path), and what to type next (``hints``: why ->
-    command)."""
+def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path], hints: dict[str, str]) -> None:
+    """Print the table of the runs in ``named`` (run -> condition), where everything is (``made``: what -> path), and
+    what to type next (``hints``: why -> command)."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
-    frame = summary_frame(study, runs)
+    frame = summary_frame(study, named)
     table = Table(title=f"{study.path.name}: means over seeds", title_justify="left", box=box.SIMPLE_HEAD,
                   padding=(0, 1), collapse_padding=True, pad_edge=False)
     names = list(study.behaviours["behaviour"].unique())

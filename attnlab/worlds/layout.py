@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from difflib import get_close_matches
 from itertools import combinations
 from math import atan2, hypot
 
+from attnlab import registry
 from attnlab.errors import ConfigError
 from attnlab.geometry import Solid, overlap
 from attnlab.registry import register
@@ -82,6 +84,12 @@ class WrittenLayout:
                        for x, y in solid.corners()):
                     raise ConfigError(f"{group}[{i}]", f"the {solid.kind} at ({solid.x_m}, {solid.y_m}) reaches "
                                       f"outside the floor of {p.width_m} x {p.depth_m} m")
+        kinds = {"obstacle", "food", "water"} | {spec.cls.source for spec in registry.parts.values()
+                                                 if isinstance(getattr(spec.cls, "source", None), str)}
+        for i, box in enumerate(p.boxes):
+            close = get_close_matches(box.kind, kinds, n=1, cutoff=0.7)
+            if close and box.kind not in kinds:
+                raise ConfigError(f"boxes[{i}].kind", f"nobody looks for '{box.kind}'", f"Did you mean '{close[0]}'?")
         for (i, one), (j, two) in combinations(enumerate(boxes), 2):
             if overlap(one, two):
                 raise ConfigError(f"boxes[{j}]", f"the {two.kind} at ({two.x_m}, {two.y_m}) overlaps boxes[{i}], the "

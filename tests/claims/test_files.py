@@ -89,7 +89,8 @@ def test_no_yaml(tmp_path, text):
 def test_command_says_it_in_one_line(tmp_path, capsys):
     from attnlab.console import guarded
     from attnlab.report.__main__ import main
-    (tmp_path / "study").mkdir()
+    (tmp_path / "study" / "run").mkdir(parents=True)
+    (tmp_path / "study" / "run" / "run.json").write_text('{"status": "failed"}')
     assert guarded(main, [str(tmp_path / "study"), "--claims", "dinocera"]) == 2
     assert guarded(main, [str(tmp_path / "no_study")]) == 2
     lines = capsys.readouterr().err.strip().splitlines()

@@ -165,9 +165,23 @@ def test_a_run_copied_twice(tmp_path):
 
 
 def test_empty_study(tmp_path):
-    (tmp_path / "empty").mkdir()
+    failed = write_run(tmp_path / "empty", "none", 0)
+    about = failed / "run.json"
+    about.write_text(about.read_text().replace('"complete"', '"failed"'))
     page = words(tmp_path / "empty")
     assert "there is no complete run in this study" in page
+
+
+def test_a_panel_without_lines(tmp_path):
+    """A study without needs (of GIVE, say) has figures that say so."""
+    study = write_study(tmp_path / "give", seeds=1, curiosities=("none",))
+    for file in study.glob("*/episodes.parquet"):
+        import pandas as pd
+        frame = pd.read_parquet(file)
+        frame[["hunger_max", "thirst_max", "safety_mean"]] = float("nan")
+        frame.to_parquet(file)
+    page = words(study, "fig08b_maximum_need", "fig09_safety")
+    assert 'id="fig09_safety"' in page
 
 
 @pytest.mark.parametrize("known", [True, False])

@@ -235,3 +235,57 @@ def test_ctrl_c_stops_cleanly_and_keeps_what_was_complete(tmp_path):
     assert "running" not in states
     result = load(folder)
     assert set(result.episodes["run"]) == set(result.complete)
+
+
+def test_a_changed_plugin_runs_again(attnlab, tmp_path):
+    assert attnlab("curiosity", "mine", module="attnlab.new").returncode == 0
+    typed = ("curiosity=mine", *SHORT)
+    assert attnlab(*typed).returncode == 0
+    assert "nothing to run" in attnlab(*typed).stdout
+    plugin = tmp_path / "plugins" / "mine.py"
+    plugin.write_text(plugin.read_text() + "\n# another thought\n")
+    again = attnlab(*typed)
+    assert "1 made before its plugin was changed" in again.stdout and "nothing to run" not in again.stdout
+    assert "nothing to run" in attnlab(*typed).stdout
+
+
+def test_conditions_keep_the_names_of_this_command(attnlab, tmp_path):
+    """A run that an earlier command made, under another name, is counted where it belongs."""
+    assert attnlab("learner.alpha=0.1", *SHORT).returncode == 0
+    done = attnlab("learner.alpha=0.1,0.5", "seed=0-1", *SHORT)
+    rows = [line.split()[:2] for line in done.stdout.splitlines() if line.strip().startswith(("alpha", "litman"))]
+    assert rows == [["alpha=0.1", "2"], ["alpha=0.5", "2"]]
+    more = attnlab("learner.alpha=0.9", *SHORT)
+    assert "holds 4 more runs of other settings" in more.stdout
+
+
+def test_labels_and_lists_may_be_typed(attnlab, tmp_path):
+    done = attnlab("labels={litman:CR,none:NCR}", "curiosity=litman,none", "behaviours=[avoid,eat]", "+behaviours=rest",
+                   *SHORT)
+    assert done.returncode == 0, done.stderr
+    assert " CR " in done.stdout and " NCR " in done.stdout
+    assert set(load(tmp_path / "outputs" / "main").behaviours["behaviour"]) == {"avoid", "eat", "rest"}
+
+
+WORLDS = {"cut": ("boxes: [{kind: food", "cut.yaml:", "is no YAML"),
+          "bare": ("width_m: 4.0", "world:", "part: layout"),
+          "typo": ("part: layout\nboxes:\n  - {kind: foods, x_m: 1.0, y_m: 1.0}", "boxes[0].kind",
+                   "Did you mean 'food'")}
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_a_wrong_world_file_is_one_line(attnlab, tmp_path, name):
+    text, where, what = WORLDS[name]
+    (tmp_path / "plugins" / "world").mkdir(parents=True)
+    (tmp_path / "plugins" / "world" / f"{name}.yaml").write_text(f"defaults: [layout, _self_]\n{text}\n"
+                                                                 if name != "bare" else text)
+    done = attnlab(f"world={name}", *SHORT)
+    assert done.returncode == 2 and not (tmp_path / "outputs").exists()
+    line = done.stderr.strip().splitlines()[-1]
+    assert where in line and what in line, done.stderr
+
+
+def test_a_report_of_no_study_writes_nothing(attnlab, tmp_path):
+    (tmp_path / "empty").mkdir()
+    done = attnlab("empty", module="attnlab.report")
+    assert done.returncode == 2 and "no runs in it" in done.stderr and not list((tmp_path / "empty").iterdir())
