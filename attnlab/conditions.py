@@ -96,6 +96,7 @@ class Conditions:
                     total = found.setdefault(name, {})
                     for value, count in counts.items():
                         total[value] = total.get(value, 0) + count
+        found = {name: counts for name, counts in found.items() if not _follows(name, found, flat)}
         for name, counts in found.items():
             parts = " and ".join(f"{value} in {n} run{'s' * (n > 1)}" for value, n in sorted(counts.items()))
             self.notes.append(f"runs of different studies are mixed here: {name} is {parts}; shown as conditions apart")
@@ -223,6 +224,17 @@ class Conditions:
     def frame(self, table: str) -> pd.DataFrame:
         """A whole table; of ``cycles`` only the last recorded episode of each run is read."""
         return self.study.plain(table)
+
+
+def _follows(name: str, found: Mapping[str, Any], flat: Mapping[str, Mapping[str, Any]]) -> bool:
+    """Is this setting a matter of which part was chosen? Then the part's name says it: world.name for world.boxes."""
+    part = f"{name.partition('.')[0]}.name"
+    if part == name or part not in found:
+        return False
+    values: dict[str, set[str]] = {}
+    for settings in flat.values():
+        values.setdefault(_text(settings.get(part)), set()).add(_text(settings.get(name)))
+    return all(len(of) == 1 for of in values.values())
 
 
 def _dig(node: Any, name: str) -> Any:

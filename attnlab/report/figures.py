@@ -44,9 +44,8 @@ FIGURES = [
            "recorded episode from the circle on; green: food, blue: water.", space.paths, found.coverage),
     Figure("policies", "Learned policies", "NCR DRINK learns 12 in bins 1-4 and 1 in bins 5-6; CR with low curiosity "
            "12 in 1-3 and 1 in 4-6; CR with high curiosity 1 or 2 (read 4) everywhere. Large: the period that most "
-           "seeds learned; small: how many of the seeds that visited "
-           "the bin; grey: never visited, or nothing learned.", policies.heat_maps,
-           found.policies),
+           "seeds learned; small: how many of the seeds that visited the bin; grey: never visited, or nothing learned. "
+           "Low: no wanting; LH: wanting, little liking; HH: both.", policies.heat_maps, found.policies),
     Figure("attention_raster", "Who looked when", "Not in the paper. Each tick is an activation, its colour the period "
            "until the next look; hunger and thirst below on the same axis.", episode.raster, found.looks),
     Figure("attention_economics", "Attention economics", "The paper gives 443 activations of CR and 364 of NCR in "

@@ -70,6 +70,10 @@ class Study:
         self._configs: dict[str, dict | None] = {}
         self._plain: dict[str, pd.DataFrame] = {}
 
+    def __repr__(self) -> str:
+        return (f"Study('{self.path}'): {len(self.complete)} complete runs of {len(self._states)}; frames: "
+                f"{', '.join(TABLES)}, runs")
+
     @cached_property
     def runs(self) -> pd.DataFrame:
         """One row a run: run, status, why, seed, curiosity, key, wall_s, cycles, error and the swept settings."""

@@ -56,8 +56,9 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
     for row in frame.to_dict("records"):
         shares = {key: f"{row[key]:.1%}" if row[key] == row[key] else "-" for key in
                   ("early", "late", "validation", "crashed")}
-        table.add_row(str(row["condition"]), str(row["runs"]), *shares.values(), f"{row['hunger']:.0f}",
-                      f"{row['thirst']:.0f}", f"{row['energy']:.0f}", f"{row['safety']:.2f}", row["activations"])
+        others = [f"{row[key]:{form}}" if row[key] == row[key] else "-" for key, form in
+                  (("hunger", ".0f"), ("thirst", ".0f"), ("energy", ".0f"), ("safety", ".2f"))]
+        table.add_row(str(row["condition"]), str(row["runs"]), *shares.values(), *others, row["activations"])
     console = Console(width=None if _is_terminal() else 110)
     console.print(table)
     lines = {"results": study.path, **made, **hints}
