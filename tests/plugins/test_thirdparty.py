@@ -69,7 +69,8 @@ def test_a_package_that_does_not_load_is_named_with_its_entry_point(place, tmp_p
 
 @pytest.mark.long
 def test_pip_installs_it_into_a_fresh_environment(place, tmp_path):
-    import subprocess
+    import os
+import subprocess
     home = tmp_path / "fresh"
     subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
     python = home / "bin" / "python"
@@ -78,7 +79,9 @@ def test_pip_installs_it_into_a_fresh_environment(place, tmp_path):
     subprocess.run([str(python), "-m", "pip", "install", "-q", str(ROOT), str(PACKAGE)], check=True, cwd=tmp_path)
 
     def run(*arguments):
-        return subprocess.run([str(python), *arguments], cwd=place.path, capture_output=True, text=True, timeout=600)
+        clean = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}  # the installed one, not ours
+        return subprocess.run([str(python), *arguments], cwd=place.path, capture_output=True, text=True, timeout=600,
+                              env=clean)
     check(run, place)
     assert run("-m", "attnlab.new", "learner", "mine").returncode == 0  # its templates are in the wheel
     where = run("-c", "import attnlab, attnlab_example; print(attnlab.__file__, attnlab_example.__file__)")
