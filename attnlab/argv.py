@@ -32,10 +32,14 @@ def normalise(argv: list[str]) -> list[str]:
 
 def _one_list(overrides: list[str]) -> list[str]:
     """``behaviours=[a,b] +behaviours=c`` as ``behaviours=[a,b,c]``; Hydra would drop the c without a word."""
-    lists = [o for o in overrides if o.startswith("behaviours=[") and o.endswith("]")]
-    more = [o for o in overrides if o.startswith("+behaviours=") and "," not in o]
-    if len(lists) != 1 or not more:
+    lists = [o for o in overrides if o.startswith("behaviours=[")]
+    more = [o for o in overrides if o.startswith("+behaviours=")]
+    if not lists or not more:
         return overrides
+    if len(lists) > 1 or not re.fullmatch(r"behaviours=\[[\w\s,]*\]", lists[0]) or \
+            not all(re.fullmatch(r"\+behaviours=\w+", o) for o in more):
+        raise ConfigError("behaviours", "a list and +behaviours together mean one list, and these do not make one",
+                          "Write all names into the list: behaviours=[a,b,c]")
     names = [name.strip() for name in lists[0][len("behaviours=["):-1].split(",") if name.strip()]
     names += [o.partition("=")[2] for o in more]
     whole = f"behaviours=[{','.join(dict.fromkeys(names))}]"

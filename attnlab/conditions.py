@@ -171,7 +171,9 @@ class Conditions:
         number for many."""
         if len(self.settings) > 5:
             if "variant" in self.settings:
-                return stratum[self.settings.index("variant")]
+                place = self.settings.index("variant")
+                if sum(other[place] == stratum[place] for other in self.strata) == 1:
+                    return stratum[place]
             return f"combination {self.strata.index(stratum) + 1}"
         if len(stratum) == 1 and list(self.labels.values()).count(self.labels.get(stratum[0])) == 1:
             return self.labels[stratum[0]]

@@ -27,5 +27,5 @@ def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = N
     except OSError as cause:
         if cause.errno not in UNWRITABLE:
             raise
-        print(f"attnlab: {cause.filename or 'output'}: cannot be written ({cause.strerror})", file=sys.stderr)
+        print(f"attnlab: {cause.filename or 'output'}: {cause.strerror}", file=sys.stderr)
         return 2

@@ -8,6 +8,7 @@ from attnlab.attention import Attention
 from attnlab.behaviours.base import Senses
 from attnlab.exploration.base import Exploration
 from attnlab.fusion.base import Fusion
+from attnlab.guards import check_shares
 from attnlab.needs.base import Body
 from attnlab.penalty.base import Penalty
 from attnlab.simulators.base import Simulator
@@ -38,7 +39,7 @@ class Agent:
 
     def died(self, cause: str, learning: bool) -> list[float]:
         """The robot died of ``cause``: the penalty of each behaviour."""
-        shares = self.penalty.shares(cause, [attention.behaviour for attention in self.attentions])
+        shares = check_shares(self.penalty, cause, [attention.behaviour for attention in self.attentions])
         return [attention.died(share, learning) for attention, share in zip(self.attentions, shares, strict=True)]
 
 

@@ -24,5 +24,5 @@ def nearest(name: str, known: Iterable[str]) -> str:
     starts = {known[:len(name)]: known for known in reversed(names)}  # gian: the start of gain_rad_s
     close = get_close_matches(name, names, n=1, cutoff=0.6) or \
         [starts[start] for start in get_close_matches(name, starts, n=1, cutoff=0.6)]
-    hint = f"Did you mean '{close[0]}'? " if close else ""
+    hint = f"Did you mean '{close[0]}'? " if close and name else ""
     return hint + (f"Known: {', '.join(names)}" if names else "There is none")

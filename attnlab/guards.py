@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import inspect
 import traceback
+from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,9 @@ from attnlab.paths import PACKAGE
 
 if TYPE_CHECKING:
     from attnlab.attention import Attention
+    from attnlab.behaviours.base import Behaviour
     from attnlab.cycle import Agent
+    from attnlab.penalty.base import Penalty
 
 SLACK = 1e-9  # of rounding
 
@@ -64,6 +67,14 @@ def check_commands(agent: Agent) -> None:
             fine = False
         if not fine:
             raise PartError(attention.behaviour, f"commanded {command!r}; expected (v m/s, w rad/s) or None")
+
+
+def check_shares(penalty: Penalty, cause: str, behaviours: Sequence[Behaviour]) -> list[float]:
+    """What a router of the penalty answers: a share within [0, 1] for each. Raises :class:`PartError`."""
+    shares = list(penalty.shares(cause, behaviours))
+    if len(shares) != len(behaviours) or not all(0.0 <= share <= 1.0 for share in shares):
+        raise PartError(penalty, f"gave the shares {shares} to {len(behaviours)} behaviours; each must be in [0, 1]")
+    return shares
 
 
 def diagnose(agent: Agent) -> None:

@@ -143,9 +143,10 @@ def plugin_hashes(config: Mapping[str, Any]) -> dict[str, str]:
             nodes += node
         elif isinstance(node, str):
             words.add(node)
-    files = {Path(spec.origin) for spec in parts.values()
-             if not words.isdisjoint((spec.name, *spec.presets)) and not Path(spec.origin).is_relative_to(PACKAGE)}
-    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest()[:16] for file in sorted(files) if file.is_file()}
+    files = {Path(spec.origin) for spec in parts.values() if spec.group not in NO_OPTION
+             and not words.isdisjoint((spec.name, *spec.presets)) and not Path(spec.origin).is_relative_to(PACKAGE)}
+    return {f"{file.parent.name}/{file.name}": hashlib.sha256(file.read_bytes()).hexdigest()[:16]
+            for file in sorted(files) if file.is_file()}
 
 
 def describe(cause: BaseException) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from attnlab.learners.monitor import SATISFY, Function, Monitor
-from attnlab.registry import register
+from attnlab.registry import plugin_hashes, register
 from attnlab.settings import build, setting
 from attnlab.streams import stream
 
@@ -95,7 +95,8 @@ class Judge:
         self.seen: dict[str, float] = {}
         shared = {k: v for k, v in self.config.items() if k not in ("outputs", "study", "cluster", "fresh")}
         learner = {k: v for k, v in self.config["learner"].items() if k in ("episodes", "look_cost")}
-        text = json.dumps({**shared, "learner": learner}, sort_keys=True, default=str)
+        text = json.dumps({**shared, "learner": learner, "plugins": plugin_hashes(self.config)}, sort_keys=True,
+                          default=str)
         self.key = hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def __enter__(self):

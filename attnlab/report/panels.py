@@ -52,9 +52,10 @@ def panels(conditions: Conditions) -> list[Panel]:
     groups: dict[tuple, list[Line]] = {}
     for stratum in conditions.strata:
         value = stratum[0]
-        runs = next(runs for runs in (conditions.runs(c, stratum) for c in curiosities) if runs.runs)
-        groups.setdefault(stratum[1:], []).append(
-            Line(cut(conditions.labels.get(value, value), 40), runs, colour[f"{value} "], dash[value]))
+        curiosity, runs = next((c, runs) for c, runs in ((c, conditions.runs(c, stratum)) for c in curiosities)
+                               if runs.runs)
+        name = conditions.labels.get(value, value if len(curiosities) == 1 else f"{conditions.name(curiosity)} {value}")
+        groups.setdefault(stratum[1:], []).append(Line(cut(name, 40), runs, colour[f"{value} "], dash[value]))
     names = conditions.settings[1:]
     return [Panel(", ".join(f"{n}={v}" for n, v in zip(names, rest, strict=True)), lines)
             for rest, lines in groups.items()]

@@ -37,6 +37,12 @@ def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
     versions = {tuple(sorted((study.about(run).get("versions") or {}).items())) for run in conditions.configs}
     if len(versions) > 1:
         found.append(f"the runs were made by {len(versions)} different sets of versions (see Provenance)")
+    files: dict[str, set[str]] = {}
+    for run in conditions.configs:
+        for file, sha in (study.about(run).get("plugins") or {}).items():
+            files.setdefault(file, set()).add(sha)
+    found += [f"{file} was changed between runs: they were made by {len(shas)} versions of it"
+              for file, shas in sorted(files.items()) if len(shas) > 1]
     return found
 
 

@@ -16,7 +16,7 @@ def summary_frame(study: Study, named: Mapping[str, str]):
     episodes, behaviours = (frame[frame["run"].isin(set(named))] for frame in (study.episodes, study.behaviours))
     episodes = episodes.assign(condition=episodes["run"].map(named))
     behaviours = behaviours.assign(condition=behaviours["run"].map(named))
-    rows = []
+    rows, names = [], study.behaviours["behaviour"].unique()
     for name in dict.fromkeys(named.values()):
         group = episodes[episodes["condition"] == name]
         if not len(group):
@@ -25,7 +25,7 @@ def summary_frame(study: Study, named: Mapping[str, str]):
         half = (train["episode"].max() + 1) / 2
         shown = valid if len(valid) else train
         acts = behaviours[(behaviours["condition"] == name) & (behaviours["phase"] == shown["phase"].iloc[0])]
-        acts = acts.groupby("behaviour", sort=False)["activations"].mean()
+        acts = acts.groupby("behaviour", sort=False)["activations"].mean().reindex(names)
         rows.append({
             "condition": name, "runs": group["run"].nunique(),
             "early": train.loc[train["episode"] < half, "survival"].mean(),
@@ -33,7 +33,8 @@ def summary_frame(study: Study, named: Mapping[str, str]):
             "validation": valid["survival"].mean() if len(valid) else float("nan"),
             "crashed": (shown["death"] == "crash").mean(), "hunger": shown["hunger_mean"].mean(),
             "thirst": shown["thirst_mean"].mean(), "energy": shown["energy_mean"].mean(),
-            "safety": shown["safety_mean"].mean(), "activations": " ".join(f"{n:.0f}" for n in acts)})
+            "safety": shown["safety_mean"].mean(),
+            "activations": " ".join(f"{n:.0f}" if n == n else "-" for n in acts)})
     return pd.DataFrame(rows)
 
 
@@ -43,8 +44,9 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
     from rich import box
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
     frame = summary_frame(study, named)
-    table = Table(title=f"{study.path.name}: means over seeds", title_justify="left", box=box.SIMPLE_HEAD,
+    table = Table(title=Text(f"{study.path.name}: means over seeds"), title_justify="left", box=box.SIMPLE_HEAD,
                   padding=(0, 1), collapse_padding=True, pad_edge=False)
     names = list(study.behaviours["behaviour"].unique())
     heads = {"condition": "condition", "runs": "runs", "early": "survival\nearly", "late": "\nlate",
@@ -58,7 +60,7 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
                   ("early", "late", "validation", "crashed")}
         others = [f"{row[key]:{form}}" if row[key] == row[key] else "-" for key, form in
                   (("hunger", ".0f"), ("thirst", ".0f"), ("energy", ".0f"), ("safety", ".2f"))]
-        table.add_row(str(row["condition"]), str(row["runs"]), *shares.values(), *others, row["activations"])
+        table.add_row(Text(str(row["condition"])), str(row["runs"]), *shares.values(), *others, row["activations"])
     console = Console(width=None if _is_terminal() else 110)
     console.print(table)
     lines = {"results": study.path, **made, **hints}

@@ -87,7 +87,7 @@ class WrittenLayout:
         kinds = {"obstacle", "food", "water"} | {spec.cls.source for spec in registry.parts.values()
                                                  if isinstance(getattr(spec.cls, "source", None), str)}
         for i, box in enumerate(p.boxes):
-            close = get_close_matches(box.kind, kinds, n=1, cutoff=0.7)
+            close = get_close_matches(box.kind, kinds, n=1, cutoff=0.85)
             if close and box.kind not in kinds:
                 raise ConfigError(f"boxes[{i}].kind", f"nobody looks for '{box.kind}'", f"Did you mean '{close[0]}'?")
         for (i, one), (j, two) in combinations(enumerate(boxes), 2):

@@ -1,5 +1,6 @@
 """A package somebody else wrote: found by its entry point, with its own conf, in worker processes too."""
 
+import os
 import shutil
 import sys
 import sysconfig
@@ -69,8 +70,7 @@ def test_a_package_that_does_not_load_is_named_with_its_entry_point(place, tmp_p
 
 @pytest.mark.long
 def test_pip_installs_it_into_a_fresh_environment(place, tmp_path):
-    import os
-import subprocess
+    import subprocess
     home = tmp_path / "fresh"
     subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
     python = home / "bin" / "python"
@@ -79,7 +79,7 @@ import subprocess
     subprocess.run([str(python), "-m", "pip", "install", "-q", str(ROOT), str(PACKAGE)], check=True, cwd=tmp_path)
 
     def run(*arguments):
-        clean = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}  # the installed one, not ours
+        clean = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}  # the installed one
         return subprocess.run([str(python), *arguments], cwd=place.path, capture_output=True, text=True, timeout=600,
                               env=clean)
     check(run, place)

@@ -224,3 +224,13 @@ def test_the_claims_file_of_the_runs_is_the_default(tmp_path):
         file.write_text(json.dumps({**about, "claims": {"name": str(rules), "sha256": "0" * 64}}))
     page = words(study)
     assert 'id="claim-only_one"' in page and "1 claim of" in page and "another claims file" in page
+
+
+def test_variants_crossed_with_another_sweep_stay_apart(tmp_path):
+    study = tmp_path / "crossed"
+    for variant in ("r0", "r1"):
+        for learner in ("q_learning", "sarsa"):
+            swept = {"variant": variant, "learner": learner, **dict.fromkeys("abcd", variant)}
+            write_study(study, 1, ("litman",), swept=swept)
+    conditions = Conditions(load(study))
+    assert len(set(conditions.named().values())) == 4

@@ -289,3 +289,13 @@ def test_a_report_of_no_study_writes_nothing(attnlab, tmp_path):
     (tmp_path / "empty").mkdir()
     done = attnlab("empty", module="attnlab.report")
     assert done.returncode == 2 and "no runs in it" in done.stderr and not list((tmp_path / "empty").iterdir())
+
+
+def test_other_behaviours_in_one_study_keep_their_columns(attnlab):
+    done = attnlab("behaviours=[avoid,eat,drink],[avoid,drink]", *SHORT)
+    assert done.returncode == 0, done.stderr
+    head = next(line for line in done.stdout.splitlines() if "condition" in line)
+    names = head.split("safety")[1].split()
+    assert sorted(names) == ["avoid", "drink", "eat"]
+    two = next(line for line in done.stdout.splitlines() if "[avoid,drink]" in line)
+    assert two.split()[-3:][names.index("eat")] == "-"

@@ -80,3 +80,19 @@ def test_a_new_behaviour_is_short(name, lines):
 
     from attnlab import registry
     assert len(Path(registry.find("behaviours", name).origin).read_text().splitlines()) <= lines
+
+
+def test_a_router_that_gives_nonsense_is_named():
+    from attnlab.guards import PartError, check_shares
+    from attnlab.penalty.all import All
+    from attnlab.testing import make
+
+    class Odd(All):
+        name = "odd"
+
+        def shares(self, cause, behaviours):
+            return [float("nan")] * len(behaviours)
+    avoid = make("behaviours", "avoid")
+    with pytest.raises(PartError, match="'odd' gave the shares"):
+        check_shares(Odd(None, None), "crash", [avoid])
+    assert check_shares(make("penalty", "all"), "crash", [avoid]) == [1.0]
