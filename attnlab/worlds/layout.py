@@ -44,6 +44,19 @@ class StartParams:
     fixed: list[float] | None = setting(None, "[x m, y m, heading rad] of reading.start_pose=fixed")
 
 
+@dataclass
+class SourceParams:
+    """How much the sources of a world give; what is left out is as the reading has it."""
+    supply: str | None = setting(None, "endless, depletion or respawn; reading.food_supply if left out")
+    portions: int | None = setting(None, "meals in a source; reading.food_portions if left out", low=1)
+    respawn_cycles: int | None = setting(None, "reading.food_respawn_cycles if left out", unit="mc", low=1)
+
+    def of_reading(self) -> dict:
+        """The settings of the reading that this world changes."""
+        named = {"food_supply": self.supply, "food_portions": self.portions, "food_respawn_cycles": self.respawn_cycles}
+        return {name: value for name, value in named.items() if value is not None}
+
+
 def start_region(start: StartParams, width_m: float, depth_m: float) -> dict:
     """The start fields of a :class:`Layout` from their settings."""
     x_max = width_m if start.x_max_m is None else start.x_max_m
@@ -68,6 +81,7 @@ class WrittenLayout:
         boxes: list[BoxParams] = setting([], "cubes of 0.5 m by kind and place")
         walls: list[WallParams] = setting([], "inner walls by their two ends")
         start: StartParams = setting(StartParams(), "where the robot may start")
+        sources: SourceParams = setting(SourceParams(), "how much food and water there is")
 
     def __init__(self, params: Params, context):
         self.params = params

@@ -12,7 +12,7 @@ from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.streams import stream
 from attnlab.worlds.base import Layout, check_start, outer_walls
-from attnlab.worlds.layout import StartParams, start_region
+from attnlab.worlds.layout import SourceParams, StartParams, start_region
 
 CELL_M = 0.1  # grid of the search for a way; finer than the passage it asks for
 PASSAGE_M = 0.4  # centre to solid: the footprint of 0.25 m and room to steer
@@ -33,6 +33,7 @@ class RandomLayout:
         water: int = setting(1, "blue cubes", low=1, high=100)
         size_m: float = setting(0.5, "edge of a cube", unit="m", above=0, high=2)
         start: StartParams = setting(StartParams(), "where the robot may start")
+        sources: SourceParams = setting(SourceParams(), "how much food and water there is")
         tries: int = setting(200, "layouts tried before giving up", low=1, high=100_000)
 
     def __init__(self, params: Params, context):

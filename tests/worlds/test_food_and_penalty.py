@@ -96,3 +96,16 @@ def test_a_router_that_gives_nonsense_is_named():
     with pytest.raises(PartError, match="'odd' gave the shares"):
         check_shares(Odd(None, None), "crash", [avoid])
     assert check_shares(make("penalty", "all"), "crash", [avoid]) == [1.0]
+
+
+def test_a_world_may_say_how_much_its_sources_give():
+    from attnlab.testing.build import BOXES, node
+    world = node("world", "layout", boxes=BOXES, sources={"supply": "depletion", "portions": 1})
+    experiment = Experiment(config(world=world, how={"food_respawn_cycles": 77}))
+    r = experiment.reading
+    assert (r.food_supply, r.food_portions, r.food_respawn_cycles) == ("depletion", 1, 77)
+    by_reading = run(**EASY, how={"food_supply": "depletion", "food_portions": 1})
+    by_world = run(**EASY, world=world)
+    assert by_world == by_reading
+    with pytest.raises(ConfigError, match="world.sources.supply: 'deplete' is not one of its values"):
+        Experiment(config(world=node("world", "layout", boxes=BOXES, sources={"supply": "deplete"})))
