@@ -6,6 +6,7 @@ from pathlib import Path
 
 FIGURES = ("fig06_survival", "fig07_rewards", "fig09_safety", "fig11_paths", "policies", "attention_economics",
            "multiverse_shares", "multiverse_effects")
+PAGES = ("curiosities", "generations")  # whole reports, some megabytes each
 HERE = Path(__file__).parent
 
 for study in sorted(Path(sys.argv[1]).iterdir()):
@@ -20,4 +21,6 @@ for study in sorted(Path(sys.argv[1]).iterdir()):
     for figure in sorted((report / "figures").glob("*.png")):
         if figure.stem in FIGURES or figure.stem.startswith("multiverse"):
             shutil.copy(figure, target)
+    if study.name in PAGES:
+        shutil.copy(report / "index.html", target / "report.html")
     print(study.name, *sorted(file.name for file in target.iterdir()))
