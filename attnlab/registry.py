@@ -75,6 +75,8 @@ def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] 
         origin = inspect.getsourcefile(cls) or cls.__module__
         if group not in GROUPS:
             raise ValueError(f"{origin}: there is no group '{group}'. {nearest(group, GROUPS)}")
+        if inspect.isabstract(cls):
+            raise TypeError(f"{origin}: {cls.__name__} lacks {', '.join(sorted(cls.__abstractmethods__))}")
         check_params(group, cls, origin)
         for option in (name, *(presets or {})):
             old = find(group, option)

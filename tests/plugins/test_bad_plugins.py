@@ -37,6 +37,8 @@ AT_IMPORT = {
     "no_default": ("@register('curiosity', 'one')\nclass Mine(Litman):\n    @dataclass\n"
                    "    class Params:\n        a: int",
                    "parameter 'a' of Mine has no default"),
+    "unfinished": ("from attnlab.curiosity.base import Curiosity\n@register('curiosity', 'one')\n"
+                   "class Mine(Curiosity):\n    def memory(self): return 0", "Mine lacks liking, observe"),
     "wrong_default": ("@register('curiosity', 'one')\nclass Mine(Litman):\n    @dataclass\n    class Params:\n"
                       "        a: int = setting(3, 'x', high=2)", "do not accept their own defaults: curiosity.a"),
 }
