@@ -50,6 +50,9 @@ def _override(argument: str) -> str:
     key, equals, value = argument.partition("=")
     if key == "experiment":
         return "+" + argument
+    if key == "behaviours" and re.fullmatch(r"\w+(,\w+)+", value):  # Hydra would take it for a sweep
+        raise ConfigError(argument, "a robot's behaviours stand in brackets", f"behaviours=[{value}]; robots of one "
+                          f"behaviour each: behaviours={','.join(f'[{name}]' for name in value.split(','))}")
     if key == "labels":  # names of one's own, which Hydra would call unknown
         return "++" + argument
     if equals and key in RANGED:

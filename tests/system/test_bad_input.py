@@ -25,6 +25,7 @@ CASES = [
     (["learner.tau=3"], "learner.tau", "no such setting"),
     (["learner.lam=0.5"], "learner.lam", "It is one of learner=q_lambda"),
     (["behaviours=[avoid,eat],[avoid,drink]", "+behaviours=rest"], "behaviours", "Write all names into the list"),
+    (["behaviours=avoid,eat"], "behaviours=avoid,eat", "behaviours=[avoid,eat]; robots of one"),
     (["alpha=0.5"], "alpha", "learner.alpha"),
     (["validation.simulatr=planar"], "validation.simulatr", "Did you mean 'simulator'"),
     (["needs=energy_only"], "behaviours.eat", "nobody brings a need called 'hunger'"),
