@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import re
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from attnlab.flat import dig, flatten, natural, text
 from attnlab.results.load import Study
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class Runs:
     def setting(self, name: str, seed: int | None = None) -> Any:
         """A setting by its dotted name from the first (or the given) run; None if there is none."""
         seeds = sorted(self.runs)
-        return _dig(self.config(seeds[0] if seed is None else seed), name) if seeds else None
+        return dig(self.config(seeds[0] if seed is None else seed), name) if seeds else None
 
 
 class Conditions:
@@ -81,16 +81,16 @@ class Conditions:
 
     def _undeclared(self, declared: list[str]) -> list[str]:
         """Settings that differ between runs of the same swept settings; each gets a note."""
-        flat = {run: _flatten(config) for run, config in self.configs.items()}
+        flat = {run: flatten(config) for run, config in self.configs.items()}
         groups: dict[tuple, list[str]] = {}
         for run in self.configs:
-            groups.setdefault(tuple(_text(self._value(run, name)) for name in declared), []).append(run)
+            groups.setdefault(tuple(text(self._value(run, name)) for name in declared), []).append(run)
         found: dict[str, dict[str, int]] = {}
         for runs in groups.values():
             for name in sorted({name for run in runs for name in flat[run]}):
                 counts: dict[str, int] = {}
                 for run in runs:
-                    value = _text(flat[run].get(name))
+                    value = text(flat[run].get(name))
                     counts[value] = counts.get(value, 0) + 1
                 if len(counts) > 1 and not (name.startswith("curiosity.") or name.partition(".")[0] in IGNORED):
                     total = found.setdefault(name, {})
@@ -106,14 +106,14 @@ class Conditions:
         swept = self.study.about(run).get("swept") or {}
         if name in swept:
             return swept[name]
-        value = _dig(self.configs[run], name)
+        value = dig(self.configs[run], name)
         return value.get("name") if isinstance(value, Mapping) else value
 
     def _sort_runs(self) -> dict[tuple, dict[int, str]]:
         keys: dict[tuple, dict[int, str]] = {}
         for run in sorted(self.configs):
             about = self.study.about(run)
-            key = (str(about.get("curiosity")), *(_text(self._value(run, name)) for name in self.settings))
+            key = (str(about.get("curiosity")), *(text(self._value(run, name)) for name in self.settings))
             seeds = keys.setdefault(key, {})
             seed = about.get("seed")
             if seed in seeds:
@@ -138,7 +138,7 @@ class Conditions:
         by number and name; [()] if nothing else differs."""
         found, order = {key[1:] for key in self._by_key}, list(self.labels)
         return sorted(found, key=lambda stratum: [(order.index(value) if value in order else len(order),
-                                                   _natural(value)) for value in stratum])
+                                                   natural(value)) for value in stratum])
 
     def runs(self, curiosity: str, stratum: tuple[str, ...] = ()) -> Runs:
         """The runs of a condition; empty if there are none."""
@@ -158,9 +158,9 @@ class Conditions:
 
     def _fits(self, has: Mapping[str, str], seeds: Mapping[int, str], name: str, value: Any) -> bool:
         if name in has:
-            return has[name] == _text(value)
+            return has[name] == text(value)
         run = next(iter(seeds.values()))
-        return _text(self._value(run, name)) == _text(value)
+        return text(self._value(run, name)) == text(value)
 
     def name(self, curiosity: str) -> str:
         """What a curiosity is called in figures."""
@@ -187,8 +187,8 @@ class Conditions:
             for curiosity in rivals:
                 name, where = self.name(curiosity), self.stratum_name(stratum)
                 alone = bool(where) and len(rivals) == 1 and where in self.labels.values()
-                text = where if alone else " ".join(filter(None, (name, where)))
-                found.update(dict.fromkeys(self.runs(curiosity, stratum).runs.values(), text))
+                called = where if alone else " ".join(filter(None, (name, where)))
+                found.update(dict.fromkeys(self.runs(curiosity, stratum).runs.values(), called))
         return found
 
     def rows(self, table: str, runs: Mapping[int, str], equal: Mapping[str, Any]) -> pd.DataFrame:
@@ -235,36 +235,5 @@ def _follows(name: str, found: Mapping[str, Any], flat: Mapping[str, Mapping[str
         return False
     values: dict[str, set[str]] = {}
     for settings in flat.values():
-        values.setdefault(_text(settings.get(part)), set()).add(_text(settings.get(name)))
+        values.setdefault(text(settings.get(part)), set()).add(text(settings.get(name)))
     return all(len(of) == 1 for of in values.values())
-
-
-def _dig(node: Any, name: str) -> Any:
-    for part in name.split("."):
-        node = node.get(part) if isinstance(node, Mapping) else None
-    return node
-
-
-def _flatten(node: Mapping, prefix: str = "") -> dict[str, Any]:
-    flat = {}
-    for name, value in node.items():
-        if isinstance(value, Mapping) and value:
-            flat.update(_flatten(value, f"{prefix}{name}."))
-        else:
-            flat[f"{prefix}{name}"] = value
-    return flat
-
-
-def _text(value: Any) -> str:
-    """A setting's value as one text, so that values of any type can be compared, sorted and shown."""
-    if isinstance(value, float) and value == int(value) and abs(value) < 1e15:
-        value = int(value)
-    return value if isinstance(value, str) else json.dumps(value, default=str)
-
-
-def _natural(value: str) -> tuple:
-    """Numbers by size before words by letter; numbers within words by size."""
-    try:
-        return (0, float(value), ())
-    except ValueError:
-        return (1, 0.0, tuple(int(part) if i % 2 else part for i, part in enumerate(re.split(r"(\d+)", value))))

@@ -85,13 +85,9 @@ class Experiment:
         self.settings: RunSettings = build(RunSettings, config, "")
         s = self.settings
         reading = {k: v for k, v in s.reading.items() if k != "name"}
-        build(Reading, {**reading, "max_cycles": s.max_cycles}, "reading")  # its own mistakes before the world's
         sources = getattr(registry.build_params("world", s.world, "world")[1], "sources", None)
-        try:
-            self.reading: Reading = build(Reading, {**reading, "max_cycles": s.max_cycles,
-                                                    **(sources.of_reading() if sources else {})}, "reading")
-        except ConfigError as error:  # only the world's own settings are left
-            raise ConfigError("world.sources.supply", error.problem, error.hint) from None
+        reading |= {"max_cycles": s.max_cycles, **(sources.of_reading() if sources else {})}
+        self.reading: Reading = build(Reading, reading, "reading")
         self.layout = self._layout()
         if not s.behaviours:
             raise ConfigError("behaviours", "there are none", "behaviours=[avoid,eat,drink]")

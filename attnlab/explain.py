@@ -66,34 +66,28 @@ def _unknown_key(text: str, arguments: Sequence[str]) -> ConfigError | None:
 
 
 def _nearest_key(key: str) -> ConfigError:
-    from attnlab.store import GROUPS_OF_RUN, root_node
-    head, _, last = key.rpartition(".")
     from attnlab.experiment import ValidationSettings
     from attnlab.reading import Reading
+    from attnlab.store import GROUPS_OF_RUN, root_node
+    head, _, last = key.rpartition(".")
+    group, part = head.partition(".")[0], head.rpartition(".")[2]
+    owners = [spec for spec in registry.parts.values()
+              if spec.group in GROUPS_OF_RUN and last in spec.params.__dataclass_fields__]
     if not head:
-        if key in Reading.__dataclass_fields__:
-            return ConfigError(key, "no such setting", f"Did you mean 'reading.{key}'?")
-        owners = sorted({spec.group if spec.group != "behaviours" else f"behaviours.{spec.name}"
-                         for spec in registry.parts.values() if spec.group in GROUPS_OF_RUN
-                         and key in getattr(spec.params, "__dataclass_fields__", {})})
-        if owners:
-            return ConfigError(key, "no such setting",
-                               f"Did you mean {' or '.join(f'{owner}.{key}' for owner in owners[:4])}?")
-        return ConfigError(key, "no such setting", nearest(key, [*root_node(), *GROUPS_OF_RUN]))
-    known: set[str] = set()
-    group = head.split(".")[0]
-    owners = sorted(s.name for s in registry.parts.values()
-                    if s.group == group and last in getattr(s.params, "__dataclass_fields__", {}))
-    if owners and group != "behaviours":
+        nodes = ["reading"] if last in Reading.__dataclass_fields__ else \
+            sorted({f"behaviours.{spec.name}" if spec.group == "behaviours" else spec.group for spec in owners})
+        meant = " or ".join(f"'{node}.{last}'" for node in nodes[:4])
+        return ConfigError(key, "no such setting", f"Did you mean {meant}?" if meant else
+                           nearest(key, [*root_node(), *GROUPS_OF_RUN]))
+    rivals = sorted(spec.name for spec in owners if spec.group == group != "behaviours")
+    if rivals:
         return ConfigError(key, f"the {group} chosen has no such setting",
-                           "It is one of " + ", ".join(f"{group}={owner}" for owner in owners[:6]))
-    if group == "validation":
-        known = set(ValidationSettings.__dataclass_fields__)
-    if group == "reading":
-        known = set(Reading.__dataclass_fields__)
+                           "It is one of " + ", ".join(f"{group}={name}" for name in rivals[:6]))
+    of_group = {"validation": ValidationSettings, "reading": Reading}.get(group)
+    known = set(of_group.__dataclass_fields__ if of_group else ())
     for spec in registry.parts.values():
-        if spec.group == group and (group != "behaviours" or spec.name == head.rpartition(".")[2]):
-            known |= set(getattr(spec.params, "__dataclass_fields__", {}))
+        if spec.group == group and (group != "behaviours" or spec.name == part):
+            known |= set(spec.params.__dataclass_fields__)
     return ConfigError(key, "no such setting", nearest(last, known) if known else
                        "Is the part it belongs to chosen? python -m attnlab.parts lists all")
 

@@ -160,13 +160,12 @@ def describe(cause: BaseException) -> str:
 
 def build_params(group: str, node: Mapping[str, Any], where: str) -> tuple[Spec, Any]:
     """The part a node names, and its checked parameters."""
-    if isinstance(node, Mapping) and node and not (node.get("part") or node.get("name")):
-        known = sorted(s.name for s in parts.values() if s.group == group)
-        raise ConfigError(where, f"the {group} file chosen does not say which part it sets",
-                          f"Write 'part: {known[0]}' into it (known: {', '.join(known)})")
     if not isinstance(node, Mapping) or not (node.get("part") or node.get("name")):
-        raise ConfigError(where, f"expected the name of a {group}, got {node!r}",
-                          nearest("", [s.name for s in parts.values() if s.group == group]))
+        known = sorted(s.name for s in parts.values() if s.group == group)
+        if isinstance(node, Mapping) and node:
+            raise ConfigError(where, f"the {group} file chosen does not say which part it sets",
+                              f"Write 'part: {known[0]}' into it (known: {', '.join(known)})")
+        raise ConfigError(where, f"expected the name of a {group}, got {node!r}", nearest("", known))
     spec = get(group, node, where)
     values = {key: value for key, value in node.items() if key not in ("name", "part")}
     return spec, settings.build(spec.params, values, where)

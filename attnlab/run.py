@@ -16,6 +16,7 @@ from attnlab.experiment import Experiment
 from attnlab.exploration.base import Exploration
 from attnlab.guards import PartError, diagnose, verdict
 from attnlab.processes import birth
+from attnlab.registry import plugin_hashes
 from attnlab.results.files import write_bytes, write_json, write_parquet
 from attnlab.results.record import Moment, Recorder
 from attnlab.results.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION, TABLES
@@ -91,7 +92,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     started = time.perf_counter()
     about = {"status": "running", "key": info["key"], "seed": config["seed"], "overrides": list(info["overrides"]),
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
-             "condition": info.get("condition"), "plugins": info.get("plugins", {}),
+             "condition": info.get("condition"), "plugins": plugin_hashes(config),
              "versions": versions(), "claims": _claims(config),
              "pid": os.getpid(), "pid_birth": birth(os.getpid()), "host": platform.node(),
              "wall_s": None, "cpu_s": None, "cycles": None, "error": None}

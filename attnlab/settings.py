@@ -97,7 +97,7 @@ def _whole(value: float) -> bool:
 def _check_range(value: Any, meta: Mapping, where: str) -> None:
     for item in value if isinstance(value, list) else [value]:
         choices = meta.get("choices")
-        if choices and item not in choices:
+        if choices and item is not None and item not in choices:  # None passes where the type allows it
             raise ConfigError(where, f"'{item}' is not one of its values", nearest(item, map(str, choices)))
         if not isinstance(item, (int, float)) or isinstance(item, bool):
             continue

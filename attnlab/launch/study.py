@@ -41,7 +41,7 @@ class Job:
     @property
     def info(self) -> dict[str, Any]:
         return {"run": self.run, "key": self.key, "overrides": self.overrides, "swept": self.swept,
-                "condition": self.condition, "plugins": plugin_hashes(self.config)}
+                "condition": self.condition}
 
 
 def run_key(config: Mapping[str, Any]) -> str:
@@ -141,7 +141,7 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
                                   "Wait for it, or name another: study=...")
             if status == "complete" and about.get("key") == job.key:
                 job.folder = folder
-                if about.get("plugins") not in (None, job.info["plugins"]):
+                if about.get("plugins") not in (None, plugin_hashes(job.config)):
                     reason = "made before its plugin was changed"
                 break
         if reason == "complete" and not fresh:

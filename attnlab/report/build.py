@@ -42,10 +42,10 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     first = judged.get(telling) or next(iter(judged.values()), [])
     with drawing(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
-        shown = [_draw(figure, conditions, others, first, target) for figure in FIGURES
+        shown = [_draw(figure, conditions, others, judged.get(telling, []), target) for figure in FIGURES
                  if conditions.strata and (only is None or figure.key in only)]
         tables = _tables(claims, conditions, target)
-        sections = _sections(study, conditions, judged, tables, target)
+        sections = _sections(study, conditions, judged, telling, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
             more, section = _multiverse(multiverse.analyse(conditions, judged), target)
             shown, sections = more + shown, [section, *sections]
@@ -58,7 +58,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
                 sections, provenance.block(study, conditions, claims))
     write_bytes(target / "index.html", text.encode())
     if not quiet:
-        _print(notes, tables if telling is not None else [], first, telling, target)
+        _print(notes, dict(tables).get(telling), first, telling, target)
     return target / "index.html"
 
 
@@ -115,12 +115,12 @@ def _telling(judged: dict[str, list[Verdict]]) -> str | None:
     return next((name for name, of in judged.items() if not nothing_testable(of)), None)
 
 
-def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdict]],
+def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdict]], telling: str | None,
               tables: list[tuple[str, list[table5.Row]]], target: Path) -> list[Section]:
     """Conditions, Table 5 and claims, in the page and as CSV; what a study of other things cannot say is left out of
     the page."""
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
-    sections, telling = [], _telling(judged)
+    sections = []
     if judged:
         section, csv = glance.section(study, conditions)
         write_bytes(target / "conditions.csv", csv)
@@ -203,10 +203,10 @@ def _span(seeds: list[int]) -> str:
         ", ".join(map(str, seeds[:20]))
 
 
-def _print(notes: list[str], tables: list, judged: list[Verdict], telling: str | None, target: Path) -> None:
-    if tables:
-        name, rows = next((pair for pair in tables if pair[0] == telling), tables[0])
-        table5.print_table(rows, f"Table 5 side by side{f' ({name})' if name else ''}: paper, here, difference")
+def _print(notes: list[str], rows: list[table5.Row] | None, judged: list[Verdict], telling: str | None,
+           target: Path) -> None:
+    if rows:
+        table5.print_table(rows, f"Table 5 side by side{f' ({telling})' if telling else ''}: paper, here, difference")
     if telling is not None:
         verdicts.print_table(judged, telling)
     for note in notes:

@@ -147,11 +147,10 @@ def maximum_need(conditions: Conditions) -> Figure:
 
 def _finish(figure: Figure, axes: list[Axes], conditions: Conditions, name: str, block: int, unit: str,
             note: str) -> None:
-    for ax in axes:  # not the figure's own label: a legend below would lie upon it
-        if ax.get_subplotspec().is_last_row():
-            ax.set_xlabel(f"training episodes (means of {block})" if block > 1 else "training episodes")
     figure.supylabel(unit, fontsize=9.5)
     for ax in axes:
+        if ax.get_subplotspec().is_last_row():  # not the figure's own label: a legend below would lie upon it
+            ax.set_xlabel(f"training episodes (means of {block})" if block > 1 else "training episodes")
         if ax.lines:  # an empty panel has no ticks to speak of
             ax.xaxis.get_major_locator().set_params(integer=True)
     legend(figure, axes, title_of_lines(conditions))

@@ -5,24 +5,18 @@ from __future__ import annotations
 from attnlab.conditions import Conditions
 from attnlab.report.page import Section, table
 from attnlab.results.load import Study
-from attnlab.results.summary import summary_frame
+from attnlab.results.summary import shown, summary_frame
 
 MOST = 40
-HEADS = {"condition": "condition", "runs": "runs", "early": "early", "late": "late", "validation": "validation",
-         "crashed": "crashed", "hunger": "hunger", "thirst": "thirst", "energy": "energy",
-         "safety": "safety", "activations": "activations"}
-FORMS = {"runs": "d", "early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "hunger": ".0f",
-         "thirst": ".0f", "energy": ".0f", "safety": ".2f"}
 
 
 def section(study: Study, conditions: Conditions) -> tuple[Section, bytes]:
     """The table for the page (of the first 40 conditions) and as CSV (of all)."""
     frame = summary_frame(study, conditions.named())
     names = ", ".join(study.behaviours["behaviour"].unique())
-    rows = [["-" if value != value else format(value, FORMS[key]) if key in FORMS else str(value)
-             for key, value in row.items()] for row in frame.head(MOST).to_dict("records")]
+    rows = [shown(row) for row in frame.head(MOST).to_dict("records")]
     more = f" The first {MOST} of {len(frame)}; all are in conditions.csv." if len(frame) > MOST else ""
-    html = table(list(HEADS.values()), rows, range(1, len(HEADS))) + (
+    html = table(list(frame.columns), rows, range(1, len(frame.columns))) + (
         "<p class=small>Means over seeds. Early, late, validation: survival in % of the episode, first and second "
         "half of training and in validation. The rest over validation episodes: crashed in % of them, needs and energy "
         "in UoE, safety by eq 13, "

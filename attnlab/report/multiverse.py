@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from attnlab.claims.judge import REPRODUCED, UNTESTABLE, Verdict
-from attnlab.conditions import Conditions, _text
+from attnlab.conditions import Conditions
+from attnlab.flat import text
 from attnlab.report.page import Section, table
 from attnlab.report.style import GREY, WIDTH_IN, cut
 from attnlab.stats import bootstrap_interval
@@ -74,7 +75,7 @@ def _factors(conditions: Conditions) -> tuple[dict[str, list[str]], dict[str, st
     import dataclasses
 
     from attnlab.reading import Reading
-    plain = {f"reading.{name}": _text(value) for name, value in dataclasses.asdict(Reading()).items()}
+    plain = {f"reading.{name}": text(value) for name, value in dataclasses.asdict(Reading()).items()}
     merged: dict[tuple, list[int]] = {}
     for place in range(len(conditions.settings)):
         if conditions.settings[place] == "variant":

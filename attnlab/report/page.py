@@ -110,7 +110,7 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> st
 
 def _figure(shown: Shown, verdicts: Mapping[str, Verdict]) -> str:
     data = base64.b64encode(shown.png).decode()
-    mine = [] if nothing_testable(list(verdicts.values())) else [verdicts[k] for k in shown.claims if k in verdicts]
+    mine = [verdicts[key] for key in shown.claims if key in verdicts]
     chips = " ".join(f'<a href="#claim-{escape(v.id)}">{chip(v.verdict, f"{v.id} {v.verdict}")}</a>' for v in mine)
     told = f"<p>{chips}</p>" if chips else ""
     return (f'<figure id="{shown.key}"><h3>{escape(shown.title)}</h3>'

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from attnlab.results.load import Study
+
+FORMS = {"early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "hunger": ".0f", "thirst": ".0f",
+         "energy": ".0f", "safety": ".2f"}
 
 
 def summary_frame(study: Study, named: Mapping[str, str]):
@@ -38,6 +42,11 @@ def summary_frame(study: Study, named: Mapping[str, str]):
     return pd.DataFrame(rows)
 
 
+def shown(row: Mapping[str, Any]) -> list[str]:
+    """A row of the frame as texts; what no run has is a dash."""
+    return ["-" if value != value else format(value, FORMS.get(key, "")) for key, value in row.items()]
+
+
 def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path], hints: dict[str, str]) -> None:
     """Print the table of the runs in ``named`` (run -> condition), where everything is (``made``: what -> path), and
     what to type next (``hints``: why -> command)."""
@@ -56,11 +65,7 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
         table.add_column(head, justify="left" if key in ("condition", "activations") else "right", overflow="fold",
                          no_wrap=key != "condition")
     for row in frame.to_dict("records"):
-        shares = {key: f"{row[key]:.1%}" if row[key] == row[key] else "-" for key in
-                  ("early", "late", "validation", "crashed")}
-        others = [f"{row[key]:{form}}" if row[key] == row[key] else "-" for key, form in
-                  (("hunger", ".0f"), ("thirst", ".0f"), ("energy", ".0f"), ("safety", ".2f"))]
-        table.add_row(Text(str(row["condition"])), str(row["runs"]), *shares.values(), *others, row["activations"])
+        table.add_row(*map(Text, shown(row)))
     console = Console(width=None if _is_terminal() else 110)
     console.print(table)
     lines = {"results": study.path, **made, **hints}
