@@ -8,9 +8,8 @@ from attnlab.attention import Attention
 from attnlab.behaviours.base import Senses
 from attnlab.exploration.base import Exploration
 from attnlab.fusion.base import Fusion
-from attnlab.guards import check_shares
 from attnlab.needs.base import Body
-from attnlab.penalty.base import Penalty
+from attnlab.penalty.base import Penalty, check_shares
 from attnlab.simulators.base import Simulator
 
 

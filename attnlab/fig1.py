@@ -11,40 +11,24 @@ from typing import TYPE_CHECKING
 
 from attnlab.console import guarded
 from attnlab.errors import ConfigError
+from attnlab.loading import load_all
+from attnlab.results.one import read_run
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-def read_run(folder: Path) -> tuple[pd.DataFrame, dict]:
-    """(cycles of the last recorded episode, config) of a complete run."""
-    import pandas as pd
-    import yaml
-
-    from attnlab.results.load import state_of
-    status, why, _ = state_of(folder)
-    if status != "complete":
-        raise ConfigError(str(folder), f"no complete run ({status}: {why})", "Name a run: outputs/<study>/<run>")
-    cycles = pd.read_parquet(folder / "cycles.parquet")
-    if cycles.empty:
-        raise ConfigError(str(folder), "no episode's cycles were stored", "Run it again with record=last")
-    last = cycles[["phase", "episode"]].iloc[-1]
-    chosen = cycles[(cycles["phase"] == last["phase"]) & (cycles["episode"] == last["episode"])]
-    return chosen.reset_index(drop=True), yaml.safe_load((folder / "config.yaml").read_text())
 
 
 def timeline(folder: Path, behaviour: str = "give") -> pd.DataFrame:
     """A row a cycle: t_s, active, period (mc), speed_m_s, distance_m."""
     import pandas as pd
 
-    from attnlab import registry
-    from attnlab.experiment import Experiment
-    registry.load_all()
+    from attnlab.robot.plan import RunPlan
+    load_all()
     cycles, config = read_run(folder)
     if config["simulator"].get("name") != "scripted" or f"{behaviour}_period" not in cycles:
         raise ConfigError(str(folder), f"is no run of {behaviour} before a scripted hand",
                           "python -m attnlab +experiment=give")
-    simulator = Experiment(config).simulator()
+    simulator = RunPlan(config).simulator()
     rows = []
     for cycle in cycles["cycle"]:
         simulator.cycle = int(cycle)

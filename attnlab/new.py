@@ -15,6 +15,7 @@ from string import Template
 from attnlab import registry
 from attnlab.console import guarded
 from attnlab.errors import ConfigError, nearest
+from attnlab.loading import load_all
 from attnlab.paths import PACKAGE, plugins_dir
 
 TEMPLATES = PACKAGE / "templates"
@@ -32,7 +33,7 @@ def write(group: str, name: str, folder: Path) -> list[Path]:
         raise ConfigError(group, "no part can be started in that group", nearest(group, groups()))
     if not name.isidentifier() or keyword.iskeyword(name) or not name.islower():
         raise ConfigError(name, "is no name for a part", "Small letters, digits and _: my_part")
-    registry.load_all()
+    load_all()
     taken = registry.find(group, name)
     if taken is not None and Path(taken.origin).parent != plugins_dir():
         raise ConfigError(name, f"{group} '{name}' exists already: {taken.origin}", "Choose another name")

@@ -6,34 +6,21 @@
         @dataclass
         class Params: ...
 
-A module that fails to load is kept in :data:`failures`, shown by ``python -m attnlab.parts``, and raised with its
-cause when somebody asks for it by name; the others go on.
+What a part promises is checked here, once, so that nobody else has to. :mod:`attnlab.loading` imports the modules; one
+that fails is kept in :data:`failures`, shown by ``python -m attnlab.parts``, and raised with its cause when somebody
+asks for it by name; the others go on.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import importlib
 import inspect
-import os
-import pkgutil
-import sys
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 from attnlab import settings
-from attnlab.errors import ConfigError, nearest
-from attnlab.paths import PACKAGE, plugins_dir
-
-GROUPS = {  # folder of conf/ -> package of attnlab that holds the built-in parts
-    "simulator": "simulators", "world": "worlds", "behaviours": "behaviours", "needs": "needs", "fusion": "fusion",
-    "curiosity": "curiosity", "learner": "learners", "exploration": "exploration", "penalty": "penalty",
-    "measure": "measures",
-}
-NO_OPTION = ("measure",)  # parts of a report: configured in a claims file, where parameters may be required
-ENTRY_POINTS = "attnlab.plugins"
+from attnlab.errors import ConfigError, describe, nearest
+from attnlab.groups import GROUPS
 
 
 @dataclasses.dataclass
@@ -54,7 +41,12 @@ class Spec:
     def params(self) -> type:
         return getattr(self.cls, "Params", NoParams)
 
-    def nodes(self) -> dict[str, dict]:
+    @property
+    def options(self) -> tuple[str, ...]:
+        """The names under which it can be chosen: its own and its presets'."""
+        return self.name, *self.presets
+
+    def nodes(self) -> dict[str, dict[str, Any]]:
         """Config options of this part by option name: the part with its defaults, and its presets."""
         base = settings.defaults_of(self.params)
         nodes = {self.name: {"name": self.name, **base}}
@@ -65,8 +57,6 @@ class Spec:
 
 parts: dict[tuple[str, str], Spec] = {}
 failures: dict[str, tuple[str, BaseException]] = {}  # module or entry point -> (file, what it raised)
-_packages: list[str] = []  # modules of entry points
-_loaded = False
 
 
 def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] | None = None) -> Callable:
@@ -75,8 +65,7 @@ def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] 
         origin = inspect.getsourcefile(cls) or cls.__module__
         if group not in GROUPS:
             raise ValueError(f"{origin}: there is no group '{group}'. {nearest(group, GROUPS)}")
-        if inspect.isabstract(cls):
-            raise TypeError(f"{origin}: {cls.__name__} lacks {', '.join(sorted(cls.__abstractmethods__))}")
+        check_class(group, cls, origin)
         check_params(group, cls, origin)
         for option in (name, *(presets or {})):
             old = find(group, option)
@@ -85,6 +74,44 @@ def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] 
         parts[group, name] = Spec(group, name, cls, presets or {}, origin)
         return cls
     return door
+
+
+def check_class(group: str, cls: type, origin: str) -> None:
+    """Raise TypeError unless a part derives from its group's base class, has all methods, and calls their arguments by
+    the names that the base class gives them."""
+    base = GROUPS[group].base_class()
+    if not issubclass(cls, base):
+        raise TypeError(f"{origin}: {cls.__name__} is no {base.__name__}: write class {cls.__name__}({base.__name__}), "
+                        f"from {base.__module__}")
+    if inspect.isabstract(cls):
+        raise TypeError(f"{origin}: {cls.__name__} lacks {', '.join(sorted(cls.__abstractmethods__))}")
+    for name, promised in inspect.getmembers(base, inspect.isroutine):
+        given = getattr(cls, name)
+        if name.startswith("_") or given is promised or not inspect.isroutine(given):
+            continue
+        wanted, found = (_arguments(function) for function in (promised, given))
+        if wanted is not None and found is not None and not _fits(found, wanted):
+            raise TypeError(f"{origin}: {cls.__name__}.{name}({', '.join(p.name for p in found)}) must take "
+                            f"({', '.join(p.name for p in wanted)})")
+
+
+def _arguments(function: Callable[..., Any]) -> list[inspect.Parameter] | None:
+    """The parameters of a method but self, or None if they cannot be told."""
+    try:
+        found = list(inspect.signature(function).parameters.values())
+    except (TypeError, ValueError):
+        return None
+    return [p for p in found if p.name not in ("self", "cls")]
+
+
+def _fits(found: list[inspect.Parameter], wanted: list[inspect.Parameter]) -> bool:
+    """May a method with parameters ``found`` be called as one with ``wanted``?"""
+    if any(p.kind is p.VAR_POSITIONAL for p in found):
+        return True
+    plain = [p for p in found if p.kind is not p.VAR_KEYWORD]
+    names = [p.name for p in plain]
+    return names[:len(wanted)] == [p.name for p in wanted] and all(p.default is not p.empty
+                                                                   for p in plain[len(wanted):])
 
 
 def check_params(group: str, cls: type, origin: str) -> None:
@@ -96,7 +123,7 @@ def check_params(group: str, cls: type, origin: str) -> None:
         if not (name.startswith("_") or callable(value) or name in params.__annotations__
                 or isinstance(value, (property, staticmethod, classmethod))):
             raise TypeError(f"{origin}: parameter '{name}' of {cls.__name__} has no type: write {name}: float = ...")
-    if group in NO_OPTION:
+    if GROUPS[group].in_report:
         return
     for field in dataclasses.fields(params):
         if field.default is field.default_factory is dataclasses.MISSING:
@@ -133,31 +160,6 @@ def unknown(group: str, name: str, where: str, known: list[str] | None = None) -
     return ConfigError(f"{where}={name}", f"no {group} is called '{name}'", nearest(name, names))
 
 
-def plugin_hashes(config: Mapping[str, Any]) -> dict[str, str]:
-    """Plugin and package files that a run's config names parts of: file -> sha256, so that a run knows its code."""
-    words, nodes = set(), [config]
-    while nodes:
-        node = nodes.pop()
-        if isinstance(node, Mapping):
-            words |= set(map(str, node))
-            nodes += node.values()
-        elif isinstance(node, (list, tuple)):
-            nodes += node
-        elif isinstance(node, str):
-            words.add(node)
-    files = {Path(spec.origin) for spec in parts.values() if spec.group not in NO_OPTION
-             and not words.isdisjoint((spec.name, *spec.presets)) and not Path(spec.origin).is_relative_to(PACKAGE)}
-    return {f"{file.parent.name}/{file.name}": hashlib.sha256(file.read_bytes()).hexdigest()[:16]
-            for file in sorted(files) if file.is_file()}
-
-
-def describe(cause: BaseException) -> str:
-    """One line: the error's type, message, and for a syntax error its line."""
-    line = f" (line {cause.lineno})" if isinstance(cause, SyntaxError) and cause.lineno else ""
-    text = cause.msg if isinstance(cause, SyntaxError) else str(cause)
-    return f"{type(cause).__name__}: {text}{line}"
-
-
 def build_params(group: str, node: Mapping[str, Any], where: str) -> tuple[Spec, Any]:
     """The part a node names, and its checked parameters."""
     if not isinstance(node, Mapping) or not (node.get("part") or node.get("name")):
@@ -184,56 +186,3 @@ def make(group: str, node: Mapping[str, Any], context: Any, where: str = "") -> 
     return part
 
 
-def plugin_folders() -> list[Path]:
-    """Where drop-in parts live: in the folder one works in, in $ATTNLAB_PLUGINS, and those shipped as examples."""
-    more = os.environ.get("ATTNLAB_PLUGINS", "").split(os.pathsep)
-    folders = [Path.cwd() / "plugins", *map(Path, more), plugins_dir()]
-    unique = dict.fromkeys(folder.resolve() for folder in folders if str(folder) not in ("", ".") and folder.is_dir())
-    return list(unique)
-
-
-def config_folders() -> list[Path]:
-    """Folders that may hold config groups (a world, an experiment), found by Hydra after ours: plugins/ folders, and
-    ``conf`` beside the module of a pip package's entry point. Call after :func:`load_all`."""
-    beside = [Path(sys.modules[module].__file__).parent / "conf" for module in _packages]
-    return [*plugin_folders(), *(folder for folder in beside if folder.is_dir())]
-
-
-def load_all() -> None:
-    """Import every built-in part, every plugins/ file and every ``attnlab.plugins`` entry point, once a process."""
-    global _loaded
-    if _loaded:
-        return
-    _loaded = True
-    for package_name in GROUPS.values():
-        package = importlib.import_module(f"attnlab.{package_name}")
-        for module in pkgutil.iter_modules(package.__path__):
-            importlib.import_module(f"attnlab.{package_name}.{module.name}")
-    plugins = importlib.import_module("attnlab.plugins")
-    folders = plugin_folders()
-    plugins.__path__.extend(str(folder) for folder in folders if str(folder) not in plugins.__path__)
-    mine = {file.name for folder in folders if folder != plugins_dir() for file in folder.glob("*.py")}
-    for folder in folders:
-        for file in sorted(folder.glob("*.py")):
-            replaced = folder == plugins_dir() and file.name in mine  # a file of one's own instead of our example
-            if not file.name.startswith("_") and not replaced:
-                _load(f"attnlab.plugins.{file.stem}", str(file))
-    from importlib.metadata import entry_points
-    for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda p: p.name):
-        module = point.value.partition(":")[0]
-        if _load(module, f"entry point {point.name} ({point.value})", point.name):
-            _packages.append(module)
-
-
-def _load(module: str, origin: str, alias: str | None = None) -> bool:
-    before = dict(parts)
-    try:
-        if module in sys.modules and not alias and sys.modules[module].__file__ != origin:
-            raise ImportError(f"another plugin file has the same name: {sys.modules[module].__file__}")
-        importlib.import_module(module)
-        return True
-    except (Exception, SystemExit) as cause:  # noqa: BLE001  a plugin may raise anything; it is kept, and shown
-        parts.clear()
-        parts.update(before)
-        failures[alias or module] = (origin, cause)
-        return False

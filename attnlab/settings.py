@@ -17,9 +17,11 @@ from attnlab.errors import ConfigError, nearest
 
 
 def setting(default: Any, doc: str, *, unit: str = "", low: float | None = None, high: float | None = None,
-            above: float | None = None, choices: tuple | None = None) -> Any:
-    """A dataclass field with its meaning, unit and range (``low``/``high`` inclusive, ``above`` exclusive)."""
-    meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "choices": choices}
+            above: float | None = None, choices: tuple | None = None, cosmetic: bool = False) -> Any:
+    """A dataclass field with its meaning, unit and range (``low``/``high`` inclusive, ``above`` exclusive).
+    ``cosmetic``: it changes no number of a run."""
+    meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "choices": choices,
+            "cosmetic": cosmetic}
     if isinstance(default, (list, dict)) or dataclasses.is_dataclass(default):
         return dataclasses.field(default_factory=lambda: _copy(default), metadata=meta)
     return dataclasses.field(default=default, metadata=meta)
@@ -27,6 +29,11 @@ def setting(default: Any, doc: str, *, unit: str = "", low: float | None = None,
 
 def _copy(value: Any) -> Any:
     return dataclasses.replace(value) if dataclasses.is_dataclass(value) else type(value)(value)
+
+
+def cosmetics(cls: type) -> frozenset[str]:
+    """Names of the settings of a dataclass that change no number."""
+    return frozenset(field.name for field in dataclasses.fields(cls) if field.metadata.get("cosmetic"))
 
 
 def defaults_of(cls: type) -> dict:

@@ -10,11 +10,12 @@ from random import Random
 from typing import Any
 
 from attnlab.certify import compose
-from attnlab.experiment import Experiment
-from attnlab.geometry import Solid
-from attnlab.run import run_experiment
+from attnlab.loading import load_all
+from attnlab.robot.episodes import play_run
+from attnlab.robot.plan import RunPlan
 from attnlab.simulators.base import Simulator, SimulatorContext
 from attnlab.worlds.base import Layout, outer_walls
+from attnlab.worlds.geometry import Solid
 
 Entry = Callable[[], tuple[int, float]]  # -> machine cycles, CPU seconds
 
@@ -30,16 +31,16 @@ def learning_loop(simulator: str, train: int, validation: int, **settings: Any) 
     plain["simulator"] = {**plain["simulator"], **settings}
 
     def entry() -> tuple[int, float]:
-        experiment = Experiment(plain)
+        experiment = RunPlan(plain)
         started = time.process_time()
-        cycles = run_experiment(experiment)[1]
+        cycles = play_run(experiment)[1]
         return cycles, time.process_time() - started
     return entry
 
 
 def reads_a_cycle(train: int = 20) -> dict[str, float]:
     """How often a learning robot reads its sonars and its camera and sets its speed, a machine cycle."""
-    experiment, counts = Experiment(config("planar", train, 5)), Counter()
+    experiment, counts = RunPlan(config("planar", train, 5)), Counter()
     simulator = experiment.simulator()
     def counting(what: str) -> Callable:
         inner = getattr(simulator, what)
@@ -52,7 +53,7 @@ def reads_a_cycle(train: int = 20) -> dict[str, float]:
     for what in ("sonar", "blobs", "advance"):
         setattr(simulator, what, counting(what))
     experiment.simulator = lambda validation=False: simulator
-    cycles = run_experiment(experiment)[1]
+    cycles = play_run(experiment)[1]
     return {what: count / cycles for what, count in counts.items()}
 
 
@@ -94,7 +95,7 @@ def crowd(boxes: int) -> Layout:
 
 def simulator(name: str, layout: Layout | None = None, cycles: int = 1150, **settings: Any) -> Simulator:
     """A simulator of the default run, in its world or another."""
-    experiment = Experiment(config(name, 1, 0))
+    experiment = RunPlan(config(name, 1, 0))
     spec, params = experiment.simulator_spec
     for key, value in settings.items():
         setattr(params, key, value)
@@ -106,9 +107,9 @@ def profile_by_part() -> dict[str, float]:
     the profiler makes calls dearer than they are."""
     import cProfile
     import pstats
-    experiment = Experiment(config("planar", 60, 20))
+    experiment = RunPlan(config("planar", 60, 20))
     profile = cProfile.Profile()
-    profile.runcall(run_experiment, experiment)
+    profile.runcall(play_run, experiment)
     spent: Counter = Counter()
     for (file, *_), (_, _, own, _, callers) in pstats.Stats(profile).stats.items():
         if "attnlab" in file:
@@ -132,13 +133,13 @@ def memory_over_episodes(episodes: int) -> dict[str, float]:
         if done in (episodes // 5, episodes):
             with open("/proc/self/statm") as file:
                 marks.append(int(file.read().split()[1]) * 4096 / 1e6)
-    run_experiment(Experiment(config("planar", episodes - 1, 1)), progress=progress)
+    play_run(RunPlan(config("planar", episodes - 1, 1)), progress=progress)
     return {"episodes": episodes, "mb_after_a_fifth": marks[0], "mb_at_the_end": marks[1]}
 
 
 def _work(seed: int) -> tuple[int, float]:
     started = time.process_time()
-    cycles = run_experiment(Experiment({**config("planar", 60, 20), "seed": seed}))[1]
+    cycles = play_run(RunPlan({**config("planar", 60, 20), "seed": seed}))[1]
     return cycles, time.process_time() - started
 
 
@@ -158,9 +159,8 @@ def parallel_efficiency(runs: int = 4) -> dict[str, float]:
 
 
 def _warm() -> None:
-    from attnlab import registry
-    registry.load_all()
-    run_experiment(Experiment(config("planar", 1, 0)))
+    load_all()
+    play_run(RunPlan(config("planar", 1, 0)))
 
 
 def _idle(_: int) -> None:

@@ -20,6 +20,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from attnlab.loading import load_all
+
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 RESULTS = ROOT / "benchmarks" / "results"
@@ -51,10 +53,9 @@ def main() -> int:
 
 def measure(rounds: int, study: bool) -> dict[str, Any]:
     """Everything, as it is stored."""
-    from attnlab import registry
-    from attnlab.run import versions
+    from attnlab.tables.code import versions
     from benchmarks import commands, loops
-    registry.load_all()
+    load_all()
     reads = loops.reads_a_cycle()
     entries, missing = contest(reads)
     found = {"machine": machine(), "versions": {**versions(), **peer_versions()}, "rounds": rounds,

@@ -9,14 +9,15 @@ from pathlib import Path
 
 import pytest
 
+from attnlab.loading import load_all
+
 ROOT = Path(__file__).resolve().parent.parent
 
 
 @pytest.fixture(scope="session", autouse=True)
 def parts_loaded():
     """Register every part once."""
-    from attnlab import registry
-    registry.load_all()
+    load_all()
 
 
 @pytest.fixture
@@ -31,7 +32,7 @@ def attnlab(tmp_path, monkeypatch):
 @pytest.fixture
 def complain(tmp_path, monkeypatch, capsys):
     """Run the command line in this process, in an empty folder: (exit code, standard error, files written)."""
-    from attnlab.cli import main
+    from attnlab.cli.main import main
 
     def call(*arguments: str) -> tuple[int, str, list[str]]:
         monkeypatch.chdir(tmp_path)

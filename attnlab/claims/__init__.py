@@ -16,8 +16,8 @@ DEFAULT = "dinocera2014"
 
 def claims_folders() -> list[Path]:
     """Where claims files are looked for by name: conf/claims, and claims/ in every plugins folder."""
+    from attnlab.loading import plugin_folders
     from attnlab.paths import conf_dir
-    from attnlab.registry import plugin_folders
     return [folder for folder in (conf_dir() / "claims", *(f / "claims" for f in plugin_folders())) if folder.is_dir()]
 
 

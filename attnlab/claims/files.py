@@ -10,6 +10,7 @@ from typing import Any
 from attnlab import registry
 from attnlab.claims import claims_path
 from attnlab.errors import ConfigError, nearest
+from attnlab.loading import load_all
 from attnlab.measures.base import Measure
 from attnlab.settings import build, setting
 
@@ -118,7 +119,7 @@ def load_claims(name: str) -> Claims:
     if not file.claims:
         raise ConfigError(f"{where}.claims", "there are none")
     roles = _roles(file.roles, where)
-    registry.load_all()
+    load_all()
     claims, measures = {}, {}
     for key, node in file.claims.items():
         place = f"{where}.{key}"

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from attnlab.claims.files import Claim, Claims, Part
-from attnlab.conditions import Conditions, Runs
 from attnlab.measures.base import CannotMeasure, Measure
+from attnlab.results.conditions import Conditions, Runs
 from attnlab.stats.seeds import Interval, bootstrap_interval, effect_size, holm, mean, paired, sign_flip_p
 
 REPRODUCED, DIRECTION, NOT, CONTRADICTED, UNTESTABLE = VERDICTS = (

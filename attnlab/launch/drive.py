@@ -7,9 +7,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from attnlab.argv import compact, seeds
 from attnlab.launch.local import cores, run_jobs
 from attnlab.launch.progress import Display
+from attnlab.launch.ranges import compact, seeds
 from attnlab.launch.study import Job, split
 
 

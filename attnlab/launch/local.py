@@ -13,7 +13,7 @@ from multiprocessing.connection import wait
 from attnlab.launch.progress import Display
 from attnlab.launch.study import Job
 from attnlab.launch.worker import work
-from attnlab.results.files import read_json, write_json
+from attnlab.tables.files import read_json, write_json
 
 
 class _Running:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
 import re
 import shutil
@@ -13,14 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from attnlab.claims import claims_path
+from attnlab.config import run_key
 from attnlab.errors import ConfigError
-from attnlab.experiment import NOT_IN_KEY, Experiment
 from attnlab.launch.settings import LocalCluster
-from attnlab.processes import is_running
-from attnlab.registry import plugin_hashes
+from attnlab.loading import plugin_hashes
 from attnlab.results.load import state_of
-from attnlab.results.schema import row_bytes
+from attnlab.robot.plan import RunPlan
 from attnlab.settings import build
+from attnlab.tables.processes import is_running
+from attnlab.tables.schema import row_bytes
 
 
 @dataclass
@@ -44,19 +43,13 @@ class Job:
                 "condition": self.condition}
 
 
-def run_key(config: Mapping[str, Any]) -> str:
-    """Ten hex digits of everything in a config that can change a number."""
-    kept = {key: value for key, value in config.items() if key not in NOT_IN_KEY}
-    return hashlib.sha256(json.dumps(kept, sort_keys=True, default=str).encode()).hexdigest()[:10]
-
-
 def make_job(config: dict[str, Any], overrides: Sequence[str], swept: Mapping[str, Any],
              named: Sequence[str] | None = None) -> Job:
     """A checked job. Raises ConfigError for anything that can be known to fail before it starts.
 
     ``swept``: what sets this run apart, by setting; ``named``: those of them that make its condition's name (all).
     """
-    settings = Experiment(config).settings
+    settings = RunPlan(config).settings
     if settings.cluster.get("name") == "local":
         build(LocalCluster, {k: v for k, v in settings.cluster.items() if k != "name"}, "cluster")
     if settings.claims_file:

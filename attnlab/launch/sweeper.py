@@ -20,11 +20,11 @@ from hydra.plugins.search_path_plugin import SearchPathPlugin
 from hydra.plugins.sweeper import Sweeper
 from omegaconf import OmegaConf, open_dict
 
-from attnlab import registry
-from attnlab.argv import RANGED, seeds
 from attnlab.errors import ConfigError
+from attnlab.launch.ranges import RANGED, seeds
 from attnlab.launch.study import Job, check_place, make_job
 from attnlab.launch.variants import as_override, read_variants
+from attnlab.loading import config_folders
 
 MOST_RUNS = 100_000
 NAMESPACE = "hydra_plugins.attnlab"
@@ -129,7 +129,7 @@ class PluginFolders(SearchPathPlugin):
     """plugins/ may hold config groups too: plugins/world/mine.yaml is ``world=mine``."""
 
     def manipulate_search_path(self, search_path) -> None:
-        for folder in registry.config_folders():
+        for folder in config_folders():
             search_path.append(provider="attnlab", path=f"file://{folder}")
 
 

@@ -14,7 +14,8 @@ DESIGNS = ("multiverse",)
 def read_variants(node: Any) -> dict[str | None, dict[str, Any]]:
     """Variants by name: setting -> value. A study without any has the one variant None, which changes nothing.
 
-    ``{design: multiverse, size: 64, seed: 0}`` asks :func:`attnlab.multiverse.design` for them. Raises ConfigError.
+    ``{design: multiverse, size: 64, seed: 0}`` asks :func:`~attnlab.launch.multiverse.design` for them. Raises
+    ConfigError.
     """
     if not node:
         return {None: {}}
@@ -40,7 +41,7 @@ def _design(node: Mapping[str, Any]) -> dict[str | None, dict[str, Any]]:
     for name, value, low in (("size", size, 2), ("seed", seed, 0)):
         if not isinstance(value, int) or isinstance(value, bool) or value < low:
             raise ConfigError(f"variants.{name}", f"is {value!r}, must be a whole number of at least {low}")
-    from attnlab.multiverse import design
+    from attnlab.launch.multiverse import design
     readings = design(size, seed)
     width = len(str(len(readings) - 1))
     return {f"r{i:0{width}d}": dict(reading) for i, reading in enumerate(readings)}

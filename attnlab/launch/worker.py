@@ -9,8 +9,8 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from attnlab import registry
-from attnlab.run import run_to_folder
+from attnlab.loading import load_all
+from attnlab.robot.folder import run_to_folder
 
 REPORT_S = 0.25
 
@@ -18,7 +18,7 @@ REPORT_S = 0.25
 def work(config: dict[str, Any], folder: str, info: dict[str, Any], pipe: Connection) -> None:
     """Run, and tell the parent how far (episodes, cycles) about four times a second; exit code 0 if complete."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's; it ends this process
-    registry.load_all()
+    load_all()
     last = 0.0
 
     def progress(episodes: int, cycles: int) -> None:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from random import Random
+from typing import Any, NamedTuple, Protocol
 
 from attnlab.exploration.base import Exploration
 from attnlab.reading import Reading
@@ -31,6 +31,28 @@ class LearnerContext:
         return len(self.levels) * len(self.periods) * self.bins
 
 
+class Outcome(NamedTuple):
+    """How an episode went: machine cycles lived, those with somebody active, and the most there could be."""
+    cycles: int
+    active_cycles: int
+    max_cycles: int
+
+
+class Rehearse(Protocol):
+    """Episodes that a learner may play before its run; all candidates share world, start poses and luck."""
+    seed: int
+    periods: list[int]
+    behaviours: list[str]
+
+    def __call__(self, candidates: Sequence[Mapping[str, Any]], episodes: int, journal: str, workers: int = 1
+                 ) -> list[list[Outcome]]:
+        """Outcomes of ``episodes`` episodes under each candidate, a learner's settings with its ``name``. They are
+        kept in the run's folder under ``journal``, so that an interrupted run goes on where it was."""
+
+    def keep(self, name: str, content: Any) -> None:
+        """Write what was found into the run's folder, as YAML."""
+
+
 class Learner(ABC):
     """Learns the next period of one behaviour's clock. ``q`` and ``visits`` are lists by state, then action."""
     name: str
@@ -38,9 +60,9 @@ class Learner(ABC):
     on_policy = False  # does update need the next action? Then that is chosen before the update, otherwise after
 
     @classmethod
-    def prepare(cls, experiment, folder: Path | None) -> dict:
-        """Called once before a run (an :class:`attnlab.experiment.Experiment`) that stores in ``folder`` or nowhere:
-        settings of this learner that were found offline, by default none."""
+    def prepare(cls, params: Any, play: Rehearse) -> dict[str, Any]:
+        """Called once before a run, with its parameters: settings of this learner that were found offline, by default
+        none. ``play`` plays candidates in the run's world."""
         return {}
 
     def __init__(self, params, context: LearnerContext):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
-    from attnlab.conditions import Runs
+    from attnlab.results.conditions import Runs
 
 PHASES = ("train", "validation")
 

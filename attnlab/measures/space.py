@@ -17,7 +17,7 @@ def visit_maps(runs, phase: str) -> dict[int, np.ndarray]:
     """Visits of the robot's centre by seed, arrays of shape (cells along x, cells along y) over the whole floor."""
     import numpy as np
 
-    from attnlab.results.schema import CELL_M
+    from attnlab.tables.schema import CELL_M
     rows = runs.rows("coverage", phase=phase)
     if not len(rows):
         raise CannotMeasure(f"no {phase} episodes left a coverage map")
@@ -48,9 +48,9 @@ class Coverage(Measure):
         footprint: bool = setting(False, "count what the body touched, not the cells of its centre")
 
     def of(self, runs):
-        from attnlab.results.schema import CELL_M
         from attnlab.simulators.robot import RADIUS_M
         from attnlab.stats import footprint_cells
+        from attnlab.tables.schema import CELL_M
         maps = visit_maps(runs, self.params.phase)
         if self.params.footprint:
             return {seed: 100 * float(footprint_cells(v, RADIUS_M, CELL_M).mean()) for seed, v in maps.items()}

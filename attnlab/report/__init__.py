@@ -25,9 +25,9 @@ def build_report(study_path: str | Path, out: str | Path | None = None, claims: 
 
 def survival_picture(study_path: str | Path) -> Path:
     """Draw survival against episodes (mean over seeds, 95 % band, a line a condition) to ``<study>/survival.png``."""
-    from attnlab.conditions import Conditions
     from attnlab.report.curves import survival
     from attnlab.report.style import drawing, save_png
+    from attnlab.results.conditions import Conditions
     from attnlab.results.load import load
     study = load(study_path)
     with drawing():

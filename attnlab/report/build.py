@@ -12,14 +12,14 @@ from attnlab.audit.table import load_table
 from attnlab.claims import DEFAULT
 from attnlab.claims.files import Claims, load_claims
 from attnlab.claims.judge import Verdict, judge
-from attnlab.conditions import Conditions
 from attnlab.errors import ConfigError
 from attnlab.report import glance, multiverse, provenance, table5, verdicts
 from attnlab.report.figures import FIGURES, Figure
 from attnlab.report.page import Section, Shown, nothing_testable, page, table
 from attnlab.report.style import drawing, png_bytes, svg_bytes
-from attnlab.results.files import write_bytes
+from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study, load
+from attnlab.tables.files import write_bytes
 
 
 def build(study_path: str | Path, out: str | Path | None, claims_name: str | None, baselines: str | Path | None,

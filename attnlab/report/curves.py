@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from attnlab.conditions import Conditions
 from attnlab.report.panels import Panel, band, block_of, by_episode, grid, legend, shown, title_of_lines
 from attnlab.report.style import GREY, cut, empty, seeds_note
+from attnlab.results.conditions import Conditions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from attnlab.conditions import Conditions
 from attnlab.measures.base import CannotMeasure, Measure
 from attnlab.measures.rewards import summed
 from attnlab.report.panels import Line, panels
 from attnlab.report.style import GREY, WIDTH_IN, cut, empty
+from attnlab.results.conditions import Conditions
 from attnlab.stats import bootstrap_interval
 
 if TYPE_CHECKING:

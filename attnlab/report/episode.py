@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from attnlab.conditions import Conditions
 from attnlab.report.panels import Line, panels
 from attnlab.report.style import GREY, INK, WIDTH_IN, cut, empty
+from attnlab.results.conditions import Conditions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from attnlab.conditions import Conditions
 from attnlab.measures.base import CannotMeasure, Measure
 from attnlab.measures.body import consumed
 from attnlab.measures.space import Coverage
@@ -14,6 +13,7 @@ from attnlab.report.economics import points
 from attnlab.report.episode import first_lines, last_episode
 from attnlab.report.panels import block_of, by_episode
 from attnlab.report.policies import learned
+from attnlab.results.conditions import Conditions
 from attnlab.stats import bootstrap_interval
 
 MOST = 6

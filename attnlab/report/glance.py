@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from attnlab.conditions import Conditions
 from attnlab.report.page import Section, table
+from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study
 from attnlab.results.summary import shown, summary_frame
 

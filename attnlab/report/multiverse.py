@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from attnlab.claims.judge import REPRODUCED, UNTESTABLE, Verdict
-from attnlab.conditions import Conditions
-from attnlab.flat import text
 from attnlab.report.page import Section, table
 from attnlab.report.style import GREY, WIDTH_IN, cut
+from attnlab.results.conditions import Conditions
+from attnlab.results.flat import text
 from attnlab.stats import bootstrap_interval
 
 if TYPE_CHECKING:

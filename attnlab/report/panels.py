@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from attnlab.conditions import Conditions, Runs
 from attnlab.report.style import WIDTH_IN, colours, cut, dashes
+from attnlab.results.conditions import Conditions, Runs
 from attnlab.stats import bootstrap_band
 
 if TYPE_CHECKING:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from attnlab.conditions import Conditions
 from attnlab.measures.base import CannotMeasure
 from attnlab.measures.policies import greedy, in_words
 from attnlab.report.episode import _period_colours, first_lines
 from attnlab.report.style import WIDTH_IN, empty
+from attnlab.results.conditions import Conditions
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,8 +10,8 @@ from html import escape
 
 from attnlab import __version__
 from attnlab.claims.files import Claims
-from attnlab.conditions import Conditions
 from attnlab.report.page import Section, table
+from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study
 
 

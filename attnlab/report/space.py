@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from attnlab.conditions import Conditions
 from attnlab.measures.base import CannotMeasure
 from attnlab.measures.space import Coverage, visit_maps
 from attnlab.report.episode import first_lines, last_episode
 from attnlab.report.panels import Line
 from attnlab.report.style import GREY, WIDTH_IN, cut, empty
-from attnlab.results.schema import CELL_M
+from attnlab.results.conditions import Conditions
 from attnlab.stats import bootstrap_interval
+from attnlab.tables.schema import CELL_M
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from attnlab.conditions import Conditions
-from attnlab.results.files import write_bytes
+from attnlab.results.conditions import Conditions
+from attnlab.tables.files import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

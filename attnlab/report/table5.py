@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from attnlab.audit.table import Cell, Table
-from attnlab.conditions import Conditions, Runs
+from attnlab.results.conditions import Conditions, Runs
 
 UNITS = {"energy": "UoE", "safety": "0-1", "hunger": "UoE", "thirst": "UoE", "reward": "UoR",
          "activations": "1", "active_cycles": "mc"}

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from attnlab.errors import ConfigError, nearest
-from attnlab.results.files import read_json
-from attnlab.results.schema import SCHEMA_VERSION, TABLES
+from attnlab.tables.files import read_json
+from attnlab.tables.schema import SCHEMA_VERSION, TABLES
 
 if TYPE_CHECKING:
     import pandas as pd

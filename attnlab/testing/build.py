@@ -8,9 +8,10 @@ from typing import Any
 from attnlab import registry
 from attnlab.behaviours.base import BehaviourContext
 from attnlab.curiosity.base import CuriosityContext
-from attnlab.experiment import Experiment
 from attnlab.learners.base import LearnerContext
+from attnlab.loading import load_all
 from attnlab.reading import Reading
+from attnlab.robot.plan import RunPlan
 from attnlab.settings import build
 from attnlab.simulators.base import SimulatorContext
 from attnlab.streams import stream
@@ -23,7 +24,7 @@ BOXES = [{"kind": kind, "x_m": x, "y_m": y} for kind, x, y in
 
 def node(group: str, name: str, **settings: Any) -> dict:
     """The config of a part with its defaults and ``settings``."""
-    registry.load_all()
+    load_all()
     spec = registry.find(group, name)
     if spec is None:
         raise registry.unknown(group, name, group)
@@ -73,5 +74,5 @@ def config(*, simulator: str = "planar", behaviours: tuple[str, ...] = ("avoid",
 
 def run(**settings: Any) -> dict[str, dict[str, list]]:
     """The tables of a run of :func:`config`."""
-    from attnlab.run import run_experiment
-    return run_experiment(Experiment(config(**settings)))[0]
+    from attnlab.robot.episodes import play_run
+    return play_run(RunPlan(config(**settings)))[0]

@@ -77,8 +77,8 @@ def plain(value: Any) -> bool:
 
 def whole_run(group: str, name: str, settings: dict) -> dict:
     """The tables of a short run that uses the part."""
-    from attnlab.experiment import Experiment
-    from attnlab.run import run_experiment
+    from attnlab.robot.episodes import play_run
+    from attnlab.robot.plan import RunPlan
     if group == "behaviours":
         works_in = registry.find(group, name).cls.simulators
         chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))), simulator=(works_in or ("planar",))[0])
@@ -87,6 +87,6 @@ def whole_run(group: str, name: str, settings: dict) -> dict:
         chosen = config(needs={"name": name, **settings}, behaviours=("avoid",))
     else:
         chosen = config(**{group: {"name": name, **settings}})
-    return run_experiment(Experiment(chosen))[0]
+    return play_run(RunPlan(chosen))[0]
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from attnlab import registry
 from attnlab.errors import ConfigError
+from attnlab.loading import load_all
 from attnlab.testing import behaviour, body, common, curiosity, learner, penalty, world
 
 Check = Callable[..., None]  # (name, **settings)
@@ -31,7 +32,7 @@ def conformance(group: str, name: str, **settings: Any) -> Callable:
 
     @pytest.mark.parametrize("check", found)
     def test(check: str) -> None:
-        registry.load_all()
+        load_all()
         if registry.find(group, name) is None:
             raise registry.unknown(group, name, group)
         found[check](name, **settings)

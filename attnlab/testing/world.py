@@ -6,9 +6,9 @@ import math
 from random import Random
 from typing import Any
 
-from attnlab.geometry import clearance
 from attnlab.simulators.robot import SONARS
 from attnlab.testing.build import layout, make
+from attnlab.worlds.geometry import clearance
 
 
 def drive(simulator, steps: int, seed: int = 2) -> list:

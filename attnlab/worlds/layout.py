@@ -9,10 +9,10 @@ from math import atan2, hypot
 
 from attnlab import registry
 from attnlab.errors import ConfigError
-from attnlab.geometry import Solid, overlap
 from attnlab.registry import register
 from attnlab.settings import setting
-from attnlab.worlds.base import Layout, check_start, outer_walls
+from attnlab.worlds.base import Layout, World, check_start, outer_walls
+from attnlab.worlds.geometry import Solid, overlap
 
 
 @dataclass
@@ -72,7 +72,7 @@ def start_region(start: StartParams, width_m: float, depth_m: float) -> dict:
 
 
 @register("world", "layout")
-class WrittenLayout:
+class WrittenLayout(World):
     """Arena, inner walls and boxes as given. Draws nothing at random."""
 
     @dataclass
@@ -83,9 +83,6 @@ class WrittenLayout:
         walls: list[WallParams] = setting([], "inner walls by their two ends")
         start: StartParams = setting(StartParams(), "where the robot may start")
         sources: SourceParams = setting(SourceParams(), "how much food and water there is")
-
-    def __init__(self, params: Params, context):
-        self.params = params
 
     def build(self, seed: int) -> Layout:
         """The checked layout; ConfigError if a box is outside, two overlap, or no start is free."""

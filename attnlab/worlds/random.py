@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from random import Random
 
 from attnlab.errors import ConfigError
-from attnlab.geometry import Solid, clearance, distance
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.streams import stream
-from attnlab.worlds.base import Layout, check_start, outer_walls
+from attnlab.worlds.base import Layout, World, check_start, outer_walls
+from attnlab.worlds.geometry import Solid, clearance, distance
 from attnlab.worlds.layout import SourceParams, StartParams, start_region
 
 CELL_M = 0.1  # grid of the search for a way; finer than the passage it asks for
@@ -20,7 +20,7 @@ ARRIVAL_M = 0.6  # centre to source: inside the default reach of a meal
 
 
 @register("world", "random")
-class RandomLayout:
+class RandomLayout(World):
     """Cubes at random places (stream ``world``, from the seed alone), drawn again until every free start region cell
     is connected to every source by a passage wide enough for the robot."""
 
@@ -35,9 +35,6 @@ class RandomLayout:
         start: StartParams = setting(StartParams(), "where the robot may start")
         sources: SourceParams = setting(SourceParams(), "how much food and water there is")
         tries: int = setting(200, "layouts tried before giving up", low=1, high=100_000)
-
-    def __init__(self, params: Params, context):
-        self.params = params
 
     def build(self, seed: int) -> Layout:
         """The layout of this seed; ConfigError if none of ``tries`` is solvable."""

@@ -3,9 +3,10 @@
 import pandas as pd
 import pytest
 
-from attnlab.appraise import appraise, chosen, main, probes
+from attnlab.appraise.__main__ import main
+from attnlab.appraise.views import appraise, chosen, probes
 from attnlab.errors import ConfigError
-from attnlab.run import run_to_folder
+from attnlab.robot.folder import run_to_folder
 from attnlab.testing import config
 from attnlab.testing.build import reading
 

@@ -13,10 +13,11 @@ from small_study import write_run, write_study  # noqa: E402
 from attnlab import registry  # noqa: E402
 from attnlab.claims.files import Part, load_claims  # noqa: E402
 from attnlab.claims.judge import _decide, judge  # noqa: E402
-from attnlab.conditions import Conditions  # noqa: E402
+from attnlab.loading import load_all
 from attnlab.measures.base import CannotMeasure  # noqa: E402
 from attnlab.measures.policies import greedy, in_words, parse_pattern  # noqa: E402
 from attnlab.results import load  # noqa: E402
+from attnlab.results.conditions import Conditions  # noqa: E402
 from attnlab.stats import Interval  # noqa: E402
 from attnlab.stats.levels import level_contrast, level_null  # noqa: E402
 
@@ -148,14 +149,14 @@ def test_levels_that_matter_and_levels_that_do_not():
     ({"name": "episode", "column": "active_cycles"}, 40.0), ({"name": "curvature"}, 1.0),
 ])
 def test_measures_by_hand(conditions, node, value):
-    registry.load_all()
+    load_all()
     # alternation: drinks at 30 and 90, a meal at 60: both neighbours differ, 2 * 1 * 2 / (3 * 2) expected
     measured = registry.make("measure", node, None).of(conditions.runs("litman"))
     assert measured[0] == pytest.approx(value, rel=0.03)
 
 
 def test_overlap(conditions):
-    registry.load_all()
+    load_all()
     overlap = registry.make("measure", {"name": "overlap"}, None).of(conditions.runs("none"))
     assert 20 < overlap[0] < 45  # 54 to 69 activations in 40 cycles
     excess = registry.make("measure", {"name": "overlap_excess"}, None).of(conditions.runs("none"))

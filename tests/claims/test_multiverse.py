@@ -12,11 +12,11 @@ from small_study import write_run  # noqa: E402
 
 from attnlab.claims.files import load_claims  # noqa: E402
 from attnlab.claims.judge import judge  # noqa: E402
-from attnlab.conditions import Conditions  # noqa: E402
 from attnlab.errors import ConfigError  # noqa: E402
-from attnlab.multiverse import balanced, design, imbalance, load_factors  # noqa: E402
+from attnlab.launch.multiverse import balanced, design, imbalance, load_factors  # noqa: E402
 from attnlab.reading import Reading  # noqa: E402
 from attnlab.results import load  # noqa: E402
+from attnlab.results.conditions import Conditions  # noqa: E402
 
 
 def test_64_readings_are_valid_and_balanced():

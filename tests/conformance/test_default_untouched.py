@@ -6,6 +6,7 @@ import time
 import pytest
 
 from attnlab import registry
+from attnlab.loading import load_all
 from attnlab.testing import run
 
 CORE = {("curiosity", "litman"), ("curiosity", "none"), ("learner", "q_learning"), ("exploration", "softmax"),
@@ -18,7 +19,7 @@ STUDY = {"train_episodes": 6, "validation_episodes": 2, "max_cycles": 400}
 @pytest.fixture
 def core_alone(monkeypatch):
     """A registry that holds the default study's parts and no others."""
-    registry.load_all()
+    load_all()
     full = dict(registry.parts)
 
     def only(core: bool):

@@ -3,10 +3,11 @@
 import pytest
 
 from attnlab import registry
+from attnlab.loading import load_all
 from attnlab.testing import checks
 from attnlab.testing.common import IN_A_RUN
 
-registry.load_all()
+load_all()
 GROUPS = (*IN_A_RUN, "world", "penalty")
 CASES = [(spec.group, option, check) for spec in registry.parts.values() if spec.group in GROUPS
          for option in (spec.name, *spec.presets) for check in checks(spec.group)]

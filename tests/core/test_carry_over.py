@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from attnlab.experiment import Experiment
-from attnlab.run import run_experiment
+from attnlab.robot.episodes import play_run
+from attnlab.robot.plan import RunPlan
 from tests.configs import config
 
 
 def test_energy_is_carried_over_but_not_from_the_dead():
     reading = {"energy_carry_over": True, "energy_death": True}
-    experiment = Experiment(config(reading=reading, train_episodes=12, validation_episodes=0, record="none"))
-    episodes = run_experiment(experiment)[0]["episodes"]
+    experiment = RunPlan(config(reading=reading, train_episodes=12, validation_episodes=0, record="none"))
+    episodes = play_run(experiment)[0]["episodes"]
     deaths, ends, starts = episodes["death"], episodes["energy_min"], episodes["energy_max"]
     assert "energy" in deaths  # a robot spends more in an episode than it finds
     for before in range(11):

@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from attnlab.experiment import Experiment
-from attnlab.identities import IdentityError, check_balance, check_clock, check_safety
-from attnlab.run import run_experiment
+from attnlab.robot.episodes import play_run
+from attnlab.robot.identities import IdentityError, check_balance, check_clock, check_safety
+from attnlab.robot.plan import RunPlan
 from tests.configs import config
 
 
@@ -17,8 +17,8 @@ def recorded(request):
     """A run with all its cycles stored: (tables as frames, experiment)."""
     reading = {} if request.param == "inferred" else "table4"
     changes = {} if request.param == "inferred" else {"max_cycles": 1500}
-    experiment = Experiment(config(reading=reading, record="all", train_episodes=12, validation_episodes=3, **changes))
-    tables, _ = run_experiment(experiment)
+    experiment = RunPlan(config(reading=reading, record="all", train_episodes=12, validation_episodes=3, **changes))
+    tables, _ = play_run(experiment)
     return {name: pd.DataFrame(table) for name, table in tables.items()}, experiment
 
 

@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from attnlab import registry
-from attnlab.results.schema import COLUMNS
+from attnlab.tables.schema import COLUMNS
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 

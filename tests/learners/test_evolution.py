@@ -4,36 +4,49 @@ import json
 
 import pytest
 
-from attnlab.experiment import Experiment
-from attnlab.learners.evolution import JOURNAL, Evolution, Judge, evolve
-from attnlab.run import run_experiment
+from attnlab.learners.base import Outcome
+from attnlab.learners.evolution import Evolution, candidate, cost, evolve
+from attnlab.robot.episodes import play_run
+from attnlab.robot.plan import RunPlan
+from attnlab.robot.rehearsal import Rehearsal
 from attnlab.testing import config
 
+JOURNAL = "evolution.jsonl"
 SETTINGS = {"name": "evolution", "generations": 3, "population": 6, "episodes": 2}
 
 
-def experiment(**learner):
-    return Experiment(config(learner={**SETTINGS, **learner}, max_cycles=200, curiosity="none"))
+def plan(**learner):
+    return RunPlan(config(learner={**SETTINGS, **learner}, max_cycles=200, curiosity="none"))
 
 
 def params(**learner):
     return Evolution.Params(**{k: v for k, v in {**SETTINGS, **learner}.items() if k != "name"})
 
 
+def evolved(plan, folder, **learner):
+    with Rehearsal(plan, folder) as play:
+        return evolve(params(**learner), play)
+
+
+def costs_of(lines):
+    return [cost([Outcome(*o) for o in json.loads(line)["outcomes"]], params().look_cost) for line in lines]
+
+
 @pytest.fixture
 def straight(tmp_path):
     folder = tmp_path / "straight"
     folder.mkdir()
-    return evolve(experiment(), params(), folder), (folder / JOURNAL).read_text()
+    return evolved(plan(), folder), (folder / JOURNAL).read_text()
 
 
 def test_it_ends_no_worse_than_the_hand_set_start(straight):
-    costs = [json.loads(line)["cost"] for line in straight[1].splitlines()]
+    costs = costs_of(straight[1].splitlines())
     assert len(costs) == (SETTINGS["generations"] + 1) * SETTINGS["population"]
-    with Judge(experiment(), params(), None) as judge:
+    with Rehearsal(plan(), None) as play:
         best = [[f["lowest_mc"], f["highest_mc"]] for f in straight[0].values()]
         genome = [g for f in straight[0].values() for g in (f["lowest_mc"], f["highest_mc"], log2(f["bend"]))]
-        assert judge(None, [genome])[0] == pytest.approx(min(costs), abs=1e-9)
+        again = play([candidate(genome, play.behaviours)], SETTINGS["episodes"], "evolution")
+        assert cost(again[0], params().look_cost) == pytest.approx(min(costs), abs=1e-9)
     assert min(costs) < costs[0]  # the first candidate is the hand-set one
     assert all(1.0 <= period <= 12.0 for pair in best for period in pair)
 
@@ -46,30 +59,29 @@ def log2(x):
 def test_an_interrupted_evolution_ends_the_same(straight, tmp_path):
     lines = straight[1].splitlines()
     (tmp_path / JOURNAL).write_text("\n".join(lines[:9]) + "\n" + lines[9][:17])  # killed while writing
-    assert evolve(experiment(), params(), tmp_path) == straight[0]
+    assert evolved(plan(), tmp_path) == straight[0]
     rows = (tmp_path / JOURNAL).read_text().splitlines()
-    assert rows[:9] == lines[:9] and [json.loads(r)["cost"] for r in rows[10:]] == [
-        json.loads(r)["cost"] for r in lines[10:]]
+    assert rows[:9] == lines[:9] and costs_of(rows[10:]) == costs_of(lines[10:])
 
 
 def test_the_journal_of_another_study_is_not_used(straight, tmp_path):
-    (tmp_path / JOURNAL).write_text(straight[1].replace('"cost": -', '"cost": -9'))
-    other = Experiment(config(learner=SETTINGS, max_cycles=150, curiosity="none"))
+    (tmp_path / JOURNAL).write_text(straight[1].replace('"outcomes": [[', '"outcomes": [[9'))
+    other = RunPlan(config(learner=SETTINGS, max_cycles=150, curiosity="none"))
     before = len(straight[1].splitlines())
-    evolve(other, params(), tmp_path)
+    evolved(other, tmp_path)
     assert len((tmp_path / JOURNAL).read_text().splitlines()) == 2 * before
 
 
 def test_a_run_uses_what_was_found(tmp_path):
-    tables, _ = run_experiment(experiment(), folder=tmp_path)
+    tables, _ = play_run(plan(), folder=tmp_path)
     import yaml
     found = yaml.safe_load((tmp_path / "evolved.yaml").read_text())["learner"]
-    again, _ = run_experiment(Experiment(config(learner=found, max_cycles=200, curiosity="none")))
+    again, _ = play_run(RunPlan(config(learner=found, max_cycles=200, curiosity="none")))
     assert tables["episodes"]["active_cycles"] == again["episodes"]["active_cycles"]
-    by_hand, _ = run_experiment(Experiment(config(learner="monitor", max_cycles=200, curiosity="none")))
+    by_hand, _ = play_run(RunPlan(config(learner="monitor", max_cycles=200, curiosity="none")))
     assert tables["episodes"]["active_cycles"] != by_hand["episodes"]["active_cycles"]
 
 
 @pytest.mark.long
 def test_several_processes_find_the_same(straight):
-    assert evolve(experiment(), params(workers=2), None) == straight[0]
+    assert evolved(plan(), None, workers=2) == straight[0]

@@ -2,10 +2,11 @@
 
 import pytest
 
-from attnlab import guards
-from attnlab.experiment import Experiment
 from attnlab.registry import parts, register
-from attnlab.run import run_experiment, run_to_folder
+from attnlab.robot import guards
+from attnlab.robot.episodes import play_run
+from attnlab.robot.folder import run_to_folder
+from attnlab.robot.plan import RunPlan
 from attnlab.testing import checks, config
 
 HEAD = """
@@ -108,7 +109,7 @@ def forget():
 def error_of(**settings):
     """What a run of :func:`config` ends with."""
     with pytest.raises(Exception) as caught:
-        run_experiment(Experiment(config(max_cycles=60, **settings)))
+        play_run(RunPlan(config(max_cycles=60, **settings)))
     return guards.verdict(caught.value)
 
 

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from attnlab.argv import compact, normalise, seeds
+from attnlab.cli.argv import normalise
 from attnlab.errors import ConfigError
+from attnlab.launch.ranges import compact, seeds
 from attnlab.streams import stream
 
 

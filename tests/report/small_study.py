@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from attnlab.results.files import write_json, write_parquet
-from attnlab.results.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION
+from attnlab.tables.files import write_json, write_parquet
+from attnlab.tables.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION
 
 BEHAVIOURS = ("avoid", "eat", "drink")
 WORLD = {"name": "paper", "part": "layout", "width_m": 4.0, "depth_m": 4.0,

@@ -7,13 +7,13 @@ from html.parser import HTMLParser
 import pytest
 from small_study import write_run, write_study
 
-from attnlab.conditions import Conditions
 from attnlab.report import build_report, survival_picture
 from attnlab.report.build import build
 from attnlab.report.figures import FIGURES
 from attnlab.report.page import PROVENANCE
 from attnlab.report.panels import panels
 from attnlab.results import load
+from attnlab.results.conditions import Conditions
 
 HOSTILE = "<script>alert(1)</script>\"'&<img src=x onerror=alert(1)>$\\frac{"
 

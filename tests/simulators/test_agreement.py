@@ -12,13 +12,15 @@ from random import Random
 
 import pytest
 
-from attnlab import certify, registry
-from attnlab.certificate.episodes import divergence, survival, total_variation
-from attnlab.certificate.poses import compare_drives, compare_poses
-from attnlab.certificate.verdict import TOLERANCES, judge
+from attnlab.certify import certificate
+from attnlab.certify.__main__ import main
+from attnlab.certify.episodes import divergence, survival, total_variation
+from attnlab.certify.poses import compare_drives, compare_poses
+from attnlab.certify.verdict import TOLERANCES, judge
 from attnlab.errors import ConfigError
-from attnlab.experiment import Experiment
-from attnlab.run import run_experiment
+from attnlab.loading import load_all
+from attnlab.robot.episodes import play_run
+from attnlab.robot.plan import RunPlan
 from attnlab.simulators.robot import Camera
 from attnlab.testing.build import config, make
 from attnlab.testing.world import drive
@@ -71,6 +73,7 @@ PROGRAM = """
 import json, sys
 from attnlab.testing.build import make
 from attnlab.testing.world import drive
+from attnlab.loading import load_all
 name, settings = json.loads(sys.argv[1])
 simulator = make("simulator", name, **settings)
 simulator.place(2.0, 2.0, 0.5)
@@ -99,8 +102,8 @@ def test_rows_within(rows, half, count):
 def test_distances_between_runs():
     assert total_variation(Counter("aaab"), Counter("ab")) == pytest.approx(0.25)
     assert total_variation(Counter("aa"), Counter("b")) == 1.0 and total_variation(Counter("a"), Counter("aa")) == 0.0
-    tables = run_experiment(Experiment(config(train_episodes=2)))[0]
-    other = run_experiment(Experiment(config(train_episodes=2, seed=1)))[0]
+    tables = play_run(RunPlan(config(train_episodes=2)))[0]
+    other = play_run(RunPlan(config(train_episodes=2, seed=1)))[0]
     same = divergence(tables, tables)
     assert same["identical"] == same["first"] == same["episodes"] == 3 and max(same["gaps_m"]) == 0.0
     assert divergence(tables, other)["first"] == 0 and max(divergence(tables, other)["gaps_m"]) > 0.1
@@ -108,11 +111,11 @@ def test_distances_between_runs():
 
 def test_closed_loop_and_transfer():
     run = {"train_episodes": 4, "validation_episodes": 2, "max_cycles": 300, "how": {"max_cycles": 300}}
-    stayed = run_experiment(Experiment(config(simulator="planar", **run)))[0]
-    bullet = run_experiment(Experiment(config(simulator="pybullet", **run)))[0]
+    stayed = play_run(RunPlan(config(simulator="planar", **run)))[0]
+    bullet = play_run(RunPlan(config(simulator="pybullet", **run)))[0]
     assert divergence(stayed, bullet)["first"] >= 1
-    moved = run_experiment(Experiment(config(simulator="planar", validation={"simulator": "pybullet"}, **run)))[0]
-    wheels = run_experiment(Experiment(config(simulator="planar", validation={"simulator": "pybullet",
+    moved = play_run(RunPlan(config(simulator="planar", validation={"simulator": "pybullet"}, **run)))[0]
+    wheels = play_run(RunPlan(config(simulator="planar", validation={"simulator": "pybullet",
                                                                               "drive": "wheels"}, **run)))[0]
     for other in (moved, wheels):
         assert survival(other, "train") == survival(stayed, "train")
@@ -126,18 +129,18 @@ def test_closed_loop_and_transfer():
                                         {"simulator": "stage"}])
 def test_transfer_to_what_is_not_there(validation):
     with pytest.raises(ConfigError, match="validation.simulator"):
-        Experiment(config(simulator="planar", validation=validation))
+        RunPlan(config(simulator="planar", validation=validation))
 
 
 def test_the_command_and_its_complaints(tmp_path, capsys):
     out = tmp_path / "here"
-    assert certify.main(["--poses", "60", "--episodes", "0", "--worlds", "open", "--out", str(out)]) == 0
+    assert main(["--poses", "60", "--episodes", "0", "--worlds", "open", "--out", str(out)]) == 0
     stored = json.loads((out / "certificate.json").read_text())
     assert stored["passes"] and stored["worlds"]["open"]["poses"] == 60 and "paper" not in stored["worlds"]
     assert "sonar_m_max" in (out / "certificate.md").read_text()
     capsys.readouterr()
     for arguments in (["--worlds", "mars"], ["--worlds", ""], ["--poses", "0"], ["reading.v_max=1"]):
-        assert certify.main([*arguments, "--out", str(tmp_path / "none")]) == 2
+        assert main([*arguments, "--out", str(tmp_path / "none")]) == 2
         lines = capsys.readouterr().err.strip().splitlines()
         assert len(lines) == 1 and lines[0].startswith("attnlab: "), lines
     assert not (tmp_path / "none").exists()
@@ -145,6 +148,6 @@ def test_the_command_and_its_complaints(tmp_path, capsys):
 
 @pytest.mark.long
 def test_a_certificate_with_closed_loops():
-    registry.load_all()
-    found = certify.certify(certify.WORLDS, 1000, 10, 1, [])
+    load_all()
+    found = certificate.certify(certificate.WORLDS, 1000, 10, 1, [])
     assert found["passes"], [row for row in found["verdict"] if not row["passes"]]

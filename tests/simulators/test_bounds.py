@@ -12,12 +12,12 @@ from pathlib import Path
 import pytest
 
 from attnlab.errors import ConfigError
-from attnlab.geometry import Solid
 from attnlab.simulators.base import SimulatorContext
 from attnlab.simulators.planar import Planar
 from attnlab.simulators.pybullet import PyBullet
 from attnlab.testing.build import layout
 from attnlab.worlds.base import Layout, outer_walls
+from attnlab.worlds.geometry import Solid
 
 ROOT = Path(__file__).resolve().parents[2]
 BOTH = pytest.mark.parametrize("kind", [Planar, PyBullet])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from random import Random
 
-from attnlab.certificate.episodes import exchangeable
+from attnlab.certify.episodes import exchangeable
 
 
 def runs(shift: float, count: int, seed: int) -> list[dict[str, Counter]]:

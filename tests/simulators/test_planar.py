@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from attnlab.geometry import Solid, clearance
 from attnlab.simulators.base import SimulatorContext
 from attnlab.simulators.planar import Planar
 from attnlab.simulators.robot import RADIUS_M, SONARS, arc, centre_distances
 from attnlab.worlds.base import Layout, outer_walls
+from attnlab.worlds.geometry import Solid, clearance
 
 FOCAL = 16 / tan(radians(30))
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
-from attnlab.experiment import Experiment
-from attnlab.run import run_experiment
+from attnlab.robot.episodes import play_run
+from attnlab.robot.plan import RunPlan
 from tests.configs import config, node
 
 
 def episodes(**changes) -> pd.DataFrame:
-    tables, _ = run_experiment(Experiment(config(check_identities=False, record="none", **changes)))
+    tables, _ = play_run(RunPlan(config(check_identities=False, record="none", **changes)))
     return pd.DataFrame(tables["episodes"])
 
 

@@ -8,9 +8,10 @@ import random
 import numpy as np
 import pytest
 
-from attnlab.experiment import Experiment
-from attnlab.results.schema import TABLES
-from attnlab.run import run_experiment, run_to_folder
+from attnlab.robot.episodes import play_run
+from attnlab.robot.folder import run_to_folder
+from attnlab.robot.plan import RunPlan
+from attnlab.tables.schema import TABLES
 from tests.configs import config
 
 INFO = {"run": "a", "key": "k", "overrides": [], "swept": {}}
@@ -43,7 +44,7 @@ def test_serial_and_parallel_and_another_order(attnlab, tmp_path):
 
 
 def test_the_seed_changes_everything_drawn():
-    one, two = (run_experiment(Experiment(config(seed=seed, max_cycles=200)))[0] for seed in (0, 1))
+    one, two = (play_run(RunPlan(config(seed=seed, max_cycles=200)))[0] for seed in (0, 1))
     assert one["cycles"]["x_m"] != two["cycles"]["x_m"]
 
 
@@ -51,12 +52,12 @@ def test_nobody_outside_is_disturbed():
     random.seed(5)
     np.random.seed(5)
     before = random.getstate(), np.random.get_state()[1].tolist()
-    run_experiment(Experiment(config(max_cycles=100, train_episodes=1)))
+    play_run(RunPlan(config(max_cycles=100, train_episodes=1)))
     assert (random.getstate(), np.random.get_state()[1].tolist()) == before
 
 
 def test_adding_a_behaviour_shifts_nobodys_randomness():
     """REST that is never released leaves the poses and the first choices of the others as they were."""
-    plain = Experiment(config()).start_pose("train", 1)
-    more = Experiment(config(behaviours=["avoid", "eat", "drink", "rest"])).start_pose("train", 1)
+    plain = RunPlan(config()).start_pose("train", 1)
+    more = RunPlan(config(behaviours=["avoid", "eat", "drink", "rest"])).start_pose("train", 1)
     assert plain == more

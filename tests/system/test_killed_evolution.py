@@ -10,7 +10,7 @@ import sys
 import time
 from pathlib import Path
 
-from attnlab.results.schema import TABLES
+from attnlab.tables.schema import TABLES
 
 COMMAND = ("learner=evolution", "learner.generations=4", "learner.population=6", "learner.episodes=4",
            "simulator=planar", "curiosity=none", "seed=0", "train_episodes=2", "validation_episodes=2",
@@ -21,7 +21,7 @@ def genomes(folder: Path) -> list[str]:
     """What was evaluated so far; a line that is being written does not count."""
     journal = next(folder.glob("*/evolution.jsonl"), None)
     lines = journal.read_text().split("\n")[:-1] if journal else []
-    return [json.loads(line)["genome"] for line in lines]
+    return [json.loads(line)["candidate"] for line in lines]
 
 
 def test_killed_and_typed_again(attnlab, tmp_path):

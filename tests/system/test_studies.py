@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from attnlab.processes import birth
 from attnlab.results import load
-from attnlab.results.schema import COLUMNS, TABLES
+from attnlab.tables.processes import birth
+from attnlab.tables.schema import COLUMNS, TABLES
 
 SHORT = ("simulator=planar", "train_episodes=3", "validation_episodes=2", "max_cycles=120", "picture=false",
          "report=false")
@@ -58,12 +58,12 @@ def test_the_papers_command_makes_the_contracts_tables(study):
 
 def test_conditions_are_paired(study):
     """Same seed: same start poses, whatever the condition."""
-    from attnlab.experiment import Experiment
+    from attnlab.robot.plan import RunPlan
     poses = {}
     for run in sorted(study[0].iterdir()):
         if (run / "config.yaml").exists():
             import yaml
-            experiment = Experiment(yaml.safe_load((run / "config.yaml").read_text()))
+            experiment = RunPlan(yaml.safe_load((run / "config.yaml").read_text()))
             poses.setdefault(experiment.settings.seed, []).append(
                 [experiment.start_pose(phase, i) for phase in ("train", "validation") for i in range(3)])
     assert all(a == b for a, b in poses.values())

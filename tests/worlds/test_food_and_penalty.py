@@ -3,8 +3,8 @@
 import pytest
 
 from attnlab.errors import ConfigError
-from attnlab.experiment import Experiment
 from attnlab.needs.base import Larder
+from attnlab.robot.plan import RunPlan
 from attnlab.testing import config, run
 from attnlab.testing.build import reading
 
@@ -62,8 +62,8 @@ def test_rest_brings_a_need_and_a_way_to_die():
     chosen = config(behaviours=("avoid", "rest"), learner="fixed_4", curiosity="none", max_cycles=1150,
                     train_episodes=1, validation_episodes=0, needs="energy_only")
     chosen["behaviours"]["rest"].update(recovery=0.001, deadly=700.0)
-    from attnlab.run import run_experiment
-    tables, _ = run_experiment(Experiment(chosen))
+    from attnlab.robot.episodes import play_run
+    tables, _ = play_run(RunPlan(chosen))
     assert tables["episodes"]["death"] == ["fatigue"]
     paid = dict(zip(tables["behaviours"]["behaviour"], tables["behaviours"]["penalty"], strict=True))
     assert paid == {"avoid": 0.0, "rest": -1500.0}
@@ -83,8 +83,9 @@ def test_a_new_behaviour_is_short(name, lines):
 
 
 def test_a_router_that_gives_nonsense_is_named():
-    from attnlab.guards import PartError, check_shares
+    from attnlab.errors import PartError
     from attnlab.penalty.all import All
+    from attnlab.penalty.base import check_shares
     from attnlab.testing import make
 
     class Odd(All):
@@ -101,11 +102,11 @@ def test_a_router_that_gives_nonsense_is_named():
 def test_a_world_may_say_how_much_its_sources_give():
     from attnlab.testing.build import BOXES, node
     world = node("world", "layout", boxes=BOXES, sources={"supply": "depletion", "portions": 1})
-    experiment = Experiment(config(world=world, how={"food_respawn_cycles": 77}))
+    experiment = RunPlan(config(world=world, how={"food_respawn_cycles": 77}))
     r = experiment.reading
     assert (r.food_supply, r.food_portions, r.food_respawn_cycles) == ("depletion", 1, 77)
     by_reading = run(**EASY, how={"food_supply": "depletion", "food_portions": 1})
     by_world = run(**EASY, world=world)
     assert by_world == by_reading
     with pytest.raises(ConfigError, match="world.sources.supply: 'deplete' is not one of its values"):
-        Experiment(config(world=node("world", "layout", boxes=BOXES, sources={"supply": "deplete"})))
+        RunPlan(config(world=node("world", "layout", boxes=BOXES, sources={"supply": "deplete"})))

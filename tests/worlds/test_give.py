@@ -4,8 +4,8 @@ import pytest
 
 from attnlab.behaviours.give import giving_period, salience
 from attnlab.errors import ConfigError
-from attnlab.experiment import Experiment
-from attnlab.run import run_experiment
+from attnlab.robot.episodes import play_run
+from attnlab.robot.plan import RunPlan
 from attnlab.testing import config, make
 
 EVERY = list(range(1, 13))
@@ -13,11 +13,11 @@ EVERY = list(range(1, 13))
 
 def watched(keyframes, **top):
     """(experiment, cycles table) of one episode before this hand."""
-    experiment = Experiment(config(
+    experiment = RunPlan(config(
         simulator={"name": "scripted", "keyframes": keyframes}, behaviours=("give",), needs="energy_only",
         learner="monitor", curiosity="none", periods=EVERY, how={"percept_bins": 100}, train_episodes=1,
         validation_episodes=0, **top))
-    return experiment, run_experiment(experiment)[0]["cycles"]
+    return experiment, play_run(experiment)[0]["cycles"]
 
 
 def test_formula():
@@ -96,12 +96,12 @@ def test_other_mistakes():
     with pytest.raises(ConfigError, match="must rise"):
         make("simulator", "scripted", keyframes=[[1.0, 1.0], [0.0, 1.0]])
     with pytest.raises(ConfigError, match=r"behaviours.give: does not work in simulator=planar. simulator=scripted"):
-        Experiment(config(behaviours=("give",)))
+        RunPlan(config(behaviours=("give",)))
 
 
 def test_fig1_from_a_run(tmp_path):
     from attnlab.fig1 import main, timeline
-    from attnlab.run import run_to_folder
+    from attnlab.robot.folder import run_to_folder
     chosen = config(simulator="scripted", behaviours=("give",), needs="energy_only", learner="monitor",
                     curiosity="none", periods=EVERY, how={"percept_bins": 100}, max_cycles=160, train_episodes=1)
     assert run_to_folder(chosen, tmp_path / "run", {"run": "run", "key": "k", "overrides": [], "swept": {}})

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from attnlab import registry
 from attnlab.errors import ConfigError
-from attnlab.geometry import Solid, clearance, distance, overlap
 from attnlab.streams import stream
+from attnlab.worlds.geometry import Solid, clearance, distance, overlap
 from attnlab.worlds.random import ARRIVAL_M, PASSAGE_M, solvable
 from tests.configs import node
 

@@ -6,13 +6,15 @@ studies mixed in one folder). Everything that goes beyond one run (measures, cla
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from attnlab.flat import dig, flatten, natural, text
+from attnlab.config import COSMETIC, layout_of, recorded_reading
+from attnlab.errors import ConfigError
+from attnlab.loading import load_all
+from attnlab.results.flat import dig, flatten, natural, text
 from attnlab.results.load import Study
 
 if TYPE_CHECKING:
@@ -21,8 +23,7 @@ if TYPE_CHECKING:
     from attnlab.reading import Reading
     from attnlab.worlds.base import Layout
 
-IGNORED = ("seed", "study", "outputs", "fresh", "picture", "report", "labels", "cluster", "claims_file",
-           "experiment")
+IGNORED = {*COSMETIC, "seed", "experiment"}  # set no conditions apart
 
 
 class Runs:
@@ -40,14 +41,9 @@ class Runs:
         return self.conditions.configs[self.runs[seed]]
 
     def reading(self) -> Reading:
-        """The reading of the first run; a setting that its config does not mention has its default."""
-        from attnlab.reading import Reading
-        config = self.config(min(self.runs))
-        names = {field.name for field in dataclasses.fields(Reading)}
-        known = {k: v for k, v in (config.get("reading") or {}).items() if k in names}
-        if config.get("max_cycles"):
-            known["max_cycles"] = config["max_cycles"]
-        return dataclasses.replace(Reading(), **known)
+        """The reading of the first run."""
+        load_all()
+        return recorded_reading(self.config(min(self.runs)))
 
     def setting(self, name: str, seed: int | None = None) -> Any:
         """A setting by its dotted name from the first (or the given) run; None if there is none."""
@@ -211,14 +207,12 @@ class Conditions:
 
     def layout(self, run: str) -> Layout | None:
         """The world of a run, built again from its config and seed; None if that world's plugin is not here."""
-        from attnlab import registry
-        from attnlab.errors import ConfigError
         node, seed = self.configs[run].get("world") or {}, self.configs[run].get("seed", 0)
         key = json.dumps([node, seed if node.get("part") != "layout" else 0], sort_keys=True, default=str)
         if key not in self._layouts:
-            registry.load_all()
+            load_all()
             try:
-                self._layouts[key] = registry.make("world", node, None).build(seed)
+                self._layouts[key] = layout_of(node, seed)
             except (ConfigError, KeyError):
                 self._layouts[key] = None
         return self._layouts[key]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import textwrap
 
 from attnlab import registry
-from attnlab.experiment import RunSettings
-from attnlab.explain import options
+from attnlab.cli.explain import options
+from attnlab.config import RunSettings
 
 TEXT = """\
 attnlab: learn where to look.

@@ -9,12 +9,13 @@ import numpy as np
 from attnlab.attention import Attention
 from attnlab.cycle import Agent
 from attnlab.equations import safety as safety_at
-from attnlab.guards import check_commands, check_log
-from attnlab.identities import check_balance, check_clock, check_safety
 from attnlab.needs.base import Body
-from attnlab.results.schema import CELL_M
+from attnlab.robot.guards import check_commands, check_log
+from attnlab.robot.identities import check_balance, check_clock, check_safety
+from attnlab.tables.schema import CELL_M
 from attnlab.worlds.base import Layout
 
+Tables = dict[str, dict[str, list]]  # table -> column -> values
 Moment = tuple[float, ...]  # (cycles moved, behaviours active when the last stretch began, energy, *needs)
 
 
@@ -24,7 +25,7 @@ class Recorder:
     def __init__(self, run: str, seed: int, curiosity: str, swept: dict, layout: Layout, check: bool):
         self.run_columns = {"run": run, "seed": seed, "curiosity": curiosity}
         self.swept, self.check = swept, check
-        self.tables: dict[str, dict[str, list]] = {name: defaultdict(list) for name in
+        self.tables: Tables = {name: defaultdict(list) for name in
                                                    ("episodes", "behaviours", "policy", "cycles", "coverage")}
         self._cells = (int(np.ceil(layout.width_m / CELL_M - 1e-9)), int(np.ceil(layout.depth_m / CELL_M - 1e-9)))
         self._visits: dict[str, np.ndarray] = {}
@@ -128,7 +129,7 @@ class Recorder:
         for name, values in rows.items():
             columns[name].extend(values.tolist() if isinstance(values, np.ndarray) else values)
 
-    def finish(self, agent: Agent) -> dict[str, dict[str, list]]:
+    def finish(self, agent: Agent) -> Tables:
         """All tables, with what was learned and where the robot has been."""
         run = self.run_columns["run"]
         for attention in agent.attentions:

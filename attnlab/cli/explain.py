@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from attnlab import registry
 from attnlab.errors import ConfigError, nearest
+from attnlab.loading import config_folders
 from attnlab.paths import conf_dir
 
 
@@ -66,9 +67,9 @@ def _unknown_key(text: str, arguments: Sequence[str]) -> ConfigError | None:
 
 
 def _nearest_key(key: str) -> ConfigError:
-    from attnlab.experiment import ValidationSettings
+    from attnlab.cli.store import GROUPS_OF_RUN, root_node
+    from attnlab.config import ValidationSettings
     from attnlab.reading import Reading
-    from attnlab.store import GROUPS_OF_RUN, root_node
     head, _, last = key.rpartition(".")
     group, part = head.partition(".")[0], head.rpartition(".")[2]
     owners = [spec for spec in registry.parts.values()
@@ -111,7 +112,7 @@ def _grammar(text: str, arguments: Sequence[str]) -> ConfigError | None:
 def options(group: str) -> list[str]:
     """Names that can stand after ``group=``."""
     names = {option for spec in registry.parts.values() if spec.group == group for option in spec.nodes()}
-    for folder in (conf_dir(), *registry.config_folders()):
+    for folder in (conf_dir(), *config_folders()):
         names |= {file.stem for file in (folder / group).glob("*.yaml")}
     names |= {"reading": {"inferred"}, "cluster": {"local"}}.get(group, set())
     return sorted(names)

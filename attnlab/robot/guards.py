@@ -6,35 +6,17 @@ What a part returned is checked at the end of an episode, from its log; when som
 
 from __future__ import annotations
 
-import inspect
 import traceback
-from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
+from attnlab import registry
+from attnlab.attention import Attention
+from attnlab.cycle import Agent
+from attnlab.errors import PartError, describe
 from attnlab.paths import PACKAGE
 
-if TYPE_CHECKING:
-    from attnlab.attention import Attention
-    from attnlab.behaviours.base import Behaviour
-    from attnlab.cycle import Agent
-    from attnlab.penalty.base import Penalty
-
 SLACK = 1e-9  # of rounding
-
-
-class PartError(RuntimeError):
-    """A part broke a promise; the message begins with its file."""
-
-    def __init__(self, part: Any, problem: str):
-        super().__init__(f"{file_of(part)}: '{getattr(part, 'name', type(part).__name__)}' {problem}")
-
-
-def file_of(part: Any) -> str:
-    """The file of a part's class, as short as it can be said."""
-    path = Path(inspect.getsourcefile(type(part)) or type(part).__module__)
-    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
 
 
 def check_log(attention: Attention) -> None:
@@ -69,14 +51,6 @@ def check_commands(agent: Agent) -> None:
             raise PartError(attention.behaviour, f"commanded {command!r}; expected (v m/s, w rad/s) or None")
 
 
-def check_shares(penalty: Penalty, cause: str, behaviours: Sequence[Behaviour]) -> list[float]:
-    """What a router of the penalty answers: a share within [0, 1] for each. Raises :class:`PartError`."""
-    shares = list(penalty.shares(cause, behaviours))
-    if len(shares) != len(behaviours) or not all(0.0 <= share <= 1.0 for share in shares):
-        raise PartError(penalty, f"gave the shares {shares} to {len(behaviours)} behaviours; each must be in [0, 1]")
-    return shares
-
-
 def diagnose(agent: Agent) -> None:
     """After something raised: raise :class:`PartError` if a part's present answers are out of bounds."""
     check_commands(agent)
@@ -96,7 +70,6 @@ def diagnose(agent: Agent) -> None:
 
 def blame(cause: BaseException) -> str:
     """``file:line`` of the innermost frame in a part that is not ours, or else of ours."""
-    from attnlab import registry
     frames = traceback.extract_tb(cause.__traceback__)
     folders = {str(Path(spec.origin).parent) for spec in registry.parts.values()
                if not Path(spec.origin).is_relative_to(PACKAGE)}
@@ -111,7 +84,6 @@ def blame(cause: BaseException) -> str:
 
 def verdict(cause: BaseException) -> str:
     """One line that says what went wrong and in which file."""
-    from attnlab.registry import describe
     if isinstance(cause, PartError):
         return str(cause)
     return " ".join(f"{blame(cause)}: {describe(cause)}".split())

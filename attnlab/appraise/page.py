@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from attnlab.results.files import write_bytes
+from attnlab.tables.files import write_bytes
 
 if TYPE_CHECKING:
     import pandas as pd

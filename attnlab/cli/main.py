@@ -7,9 +7,10 @@ import sys
 from collections.abc import Sequence
 
 from attnlab import __version__, registry
-from attnlab.argv import normalise
+from attnlab.cli.argv import normalise
 from attnlab.console import guarded
-from attnlab.errors import ConfigError
+from attnlab.errors import ConfigError, describe
+from attnlab.loading import load_all
 from attnlab.paths import conf_dir
 
 
@@ -21,16 +22,16 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _main(argv: Sequence[str]) -> int:
     arguments = normalise(list(argv))
     if any(flag in arguments for flag in ("--help", "-h")):
-        from attnlab.helptext import help_text
-        registry.load_all()
+        from attnlab.cli.helptext import help_text
+        load_all()
         print(help_text())
         return 0
     if "--version" in arguments:
         print(f"attnlab {__version__}")
         return 0
-    registry.load_all()
+    load_all()
     for file, cause in registry.failures.values():
-        print(f"attnlab: {file} did not load and is left out: {registry.describe(cause)}", file=sys.stderr)
+        print(f"attnlab: {file} did not load and is left out: {describe(cause)}", file=sys.stderr)
     return _hydra(arguments)
 
 
@@ -40,9 +41,9 @@ def _hydra(arguments: list[str]) -> int:
     import hydra
     from omegaconf import OmegaConf
 
-    from attnlab.explain import explain
+    from attnlab.cli.explain import explain
+    from attnlab.cli.store import store_options
     from attnlab.launch.sweeper import StudySweeper, register_with_hydra
-    from attnlab.store import store_options
     store_options()
     register_with_hydra()
     others = ("-m", "--multirun", "-c", "--cfg", "-i", "--info", "--hydra-help", "-sc", "--shell-completion")
@@ -53,7 +54,7 @@ def _hydra(arguments: list[str]) -> int:
     def application(config) -> None:
         """Reached only through a launcher of another package: one run in this process."""
         from attnlab.launch.study import make_job
-        from attnlab.run import run_to_folder
+        from attnlab.robot.folder import run_to_folder
         job = make_job(OmegaConf.to_container(config, resolve=True), [], {})
         run_to_folder(job.config, job.folder, job.info)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from attnlab import registry
-from attnlab.experiment import RunSettings
+from attnlab.config import RunSettings
 from attnlab.launch.settings import LocalCluster
 from attnlab.reading import Reading
 from attnlab.settings import defaults_of

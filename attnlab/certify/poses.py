@@ -8,9 +8,9 @@ from random import Random
 
 import numpy as np
 
-from attnlab.geometry import clearance
 from attnlab.simulators.base import Blob, Simulator
 from attnlab.simulators.robot import BEAMS, RADIUS_M
+from attnlab.worlds.geometry import clearance
 
 GRAZE_M = 0.001  # a beam that passes an edge nearer than this may hit or miss it by rounding
 

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from attnlab.experiment import Experiment
-from attnlab.run import run_experiment
+from attnlab.robot.episodes import play_run
+from attnlab.robot.plan import RunPlan
 
 Tables = dict[str, dict[str, list]]
 DIVERGED_M = 0.001
@@ -20,7 +20,7 @@ MOST_SPLITS = 2000
 
 def run(config: dict[str, Any], tick: Callable[[], None]) -> Tables:
     """The tables of a run."""
-    return run_experiment(Experiment(config), progress=lambda *_: tick())[0]
+    return play_run(RunPlan(config), progress=lambda *_: tick())[0]
 
 
 def survival(tables: Tables, phase: str = "validation") -> list[float]:

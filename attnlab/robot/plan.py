@@ -1,81 +1,30 @@
-"""A run's configuration, checked, and the agent built from it."""
+"""A run that was checked: its settings, its world, and the agent built from them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from attnlab import registry
 from attnlab.attention import Attention
 from attnlab.behaviours.base import BehaviourContext
+from attnlab.config import RunSettings, layout_of, reading_of
 from attnlab.curiosity.base import CuriosityContext
 from attnlab.cycle import Agent
-from attnlab.errors import ConfigError
+from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
-from attnlab.guards import blame
 from attnlab.learners.base import LearnerContext
 from attnlab.reading import Reading
-from attnlab.settings import build, setting
+from attnlab.robot.guards import blame
+from attnlab.settings import build
 from attnlab.simulators.base import Simulator, SimulatorContext
 from attnlab.streams import stream
 from attnlab.worlds.base import Layout
 
 
-@dataclass
-class ValidationSettings:
-    simulator: str | None = setting(None, "validate on another simulator than the one trained on")
-    drive: str | None = setting(None, "drive of the pybullet that validates", choices=(None, "kinematic", "wheels"))
-
-
-@dataclass
-class RunSettings:
-    """Everything at the top of a config. Groups are mappings with the ``name`` of the chosen part."""
-    seed: int = setting(0, "every draw of the run follows from it", low=0, high=2**63)
-    train_episodes: int = setting(500, "episodes that learn", low=1, high=10**12)
-    validation_episodes: int = setting(100, "episodes after them, without learning", low=0, high=10**12)
-    max_cycles: int = setting(1150, "machine cycles an episode; follows the reading", unit="mc", low=1, high=10**7)
-    periods: list[int] = setting([1, 4, 8, 12], "periods a clock may have", unit="mc", low=1, high=10_000)
-    study: str = setting("main", "folder of the results inside outputs")
-    outputs: str = setting("outputs", "root folder of all results")
-    fresh: bool = setting(False, "run again what is complete already")
-    record: str = setting("last", "episodes whose cycles are stored: the last one, all of validation, all, none",
-                          choices=("none", "last", "validation", "all"))
-    check_identities: bool = setting(True, "check the bookkeeping on every cycle")
-    picture: bool = setting(True, "draw the study's figures at its end")
-    report: bool = setting(True, "build the study's report at its end")
-    claims_file: str = setting("dinocera2014", "claims the study is judged by; its hash is stored with a run")
-    variants: Any = setting(None, "settings that are swept together: {name: {setting: value, ...}, ...}, or "
-                            "{design: multiverse, size: 64, seed: 0}")
-    labels: dict = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}")
-    validation: ValidationSettings = setting(ValidationSettings(), "how validation differs from training")
-    reading: dict = setting({}, "how the paper's open points are read")
-    simulator: dict = setting({}, "")
-    world: dict = setting({}, "")
-    behaviours: dict = setting({}, "")
-    needs: dict = setting({}, "")
-    fusion: dict = setting({}, "")
-    curiosity: dict = setting({}, "")
-    learner: dict = setting({}, "")
-    exploration: dict = setting({}, "")
-    cluster: dict = setting({}, "where a sweep runs")
-
-    def __post_init__(self):
-        if len(set(self.periods)) != len(self.periods) or not self.periods:
-            raise ConfigError("periods", f"{self.periods} must be different whole numbers, at least one")
-        for name in ("study",):
-            value = getattr(self, name)
-            if not value or any(c in value for c in "/\\\0\n") or value.startswith("."):
-                raise ConfigError(name, f"{value!r} cannot be the name of a folder")
-
-
-NOT_IN_KEY = ("study", "outputs", "fresh", "picture", "report", "claims_file", "variants", "labels",
-              "cluster")  # change no number
-
-
-class Experiment:
-    """A checked run: constructing one finds every error that can be found before anything runs.
+class RunPlan:
+    """A run to be: constructing one finds every error that can be found before anything runs.
 
     Raises :class:`ConfigError` naming the setting.
     """
@@ -84,10 +33,7 @@ class Experiment:
         self.config = config
         self.settings: RunSettings = build(RunSettings, config, "")
         s = self.settings
-        reading = {k: v for k, v in s.reading.items() if k != "name"}
-        sources = getattr(registry.build_params("world", s.world, "world")[1], "sources", None)
-        reading |= {"max_cycles": s.max_cycles, **(sources.of_reading() if sources else {})}
-        self.reading: Reading = build(Reading, reading, "reading")
+        self.reading: Reading = reading_of(s)
         self.layout = self._layout()
         if not s.behaviours:
             raise ConfigError("behaviours", "there are none", "behaviours=[avoid,eat,drink]")
@@ -102,18 +48,19 @@ class Experiment:
         self._try_parts()
 
     def prepare(self, folder: Path | None) -> None:
-        """What a learner does before the run."""
-        spec = registry.get("learner", self.settings.learner, "learner")
-        self.found = spec.cls.prepare(self, folder)
+        """What a learner does before the run; it may keep files in ``folder``."""
+        from attnlab.robot.rehearsal import Rehearsal
+        spec, params = registry.build_params("learner", self.settings.learner, "learner")
+        with Rehearsal(self, folder) as play:
+            self.found = spec.cls.prepare(params, play)
 
     def _layout(self) -> Layout:
         try:
-            return registry.make("world", self.settings.world, None).build(self.settings.seed)
-        except ConfigError as error:
-            if error.setting.startswith("world"):
-                raise
-            name = self.settings.world.get("name")
-            raise ConfigError(f"world={name}", f"{error.setting}: {error.problem}", error.hint) from None
+            return layout_of(self.settings.world, self.settings.seed)
+        except ConfigError:
+            raise
+        except Exception as cause:
+            raise ConfigError(blame(cause), describe(cause), "The world could not be built") from cause
 
     def _validation_spec(self):
         chosen = self.settings.validation
@@ -135,7 +82,7 @@ class Experiment:
         except ConfigError:
             raise
         except Exception as cause:
-            raise ConfigError(blame(cause), registry.describe(cause), "The part could not be constructed") from cause
+            raise ConfigError(blame(cause), describe(cause), "The part could not be constructed") from cause
         simulator = self.simulator_spec[0].name
         for attention in agent.attentions:
             for need in attention.behaviour.feels:
@@ -157,9 +104,10 @@ class Experiment:
         part.name = spec.name
         return part
 
-    def agent(self, simulator: Simulator) -> Agent:
-        """The robot with fresh tables."""
+    def agent(self, simulator: Simulator, learner: Mapping[str, Any] | None = None) -> Agent:
+        """The robot with fresh tables; ``learner``: another one than that of the config, with its settings."""
         s, r = self.settings, self.reading
+        chosen = learner or {**s.learner, **self.found}
         curiosity = registry.make("curiosity", s.curiosity,
                                   CuriosityContext(r, r.percept_bins, stream(s.seed, "curiosity")))
         attentions, own_needs = [], []
@@ -168,9 +116,9 @@ class Experiment:
                                       f"behaviours.{name}")
             behaviour.name = name
             own_needs += behaviour.needs()
-            learner = registry.make("learner", {**s.learner, **self.found}, LearnerContext(
+            learns = registry.make("learner", chosen, LearnerContext(
                 r, name, curiosity.levels, s.periods, r.percept_bins, stream(s.seed, "learner", name)))
-            attentions.append(Attention(behaviour, s.periods, curiosity, learner, r,
+            attentions.append(Attention(behaviour, s.periods, curiosity, learns, r,
                                         stream(s.seed, "exploration", name)))
         body = registry.make("needs", s.needs, r).body(own_needs)
         fusion = registry.make("fusion", s.fusion, r)

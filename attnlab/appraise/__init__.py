@@ -1,0 +1,1 @@
+"""A recorded run as every model of curiosity sees it."""

@@ -1,0 +1,1 @@
+"""The command line: arguments, Hydra, errors that say what to do."""

@@ -1,0 +1,149 @@
+"""Every part in words: what ``python -m attnlab.parts`` prints."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import sys
+import textwrap
+import typing
+from collections.abc import Iterable
+from pathlib import Path
+
+from attnlab import registry
+from attnlab.errors import ConfigError, describe, nearest
+from attnlab.groups import GROUPS
+from attnlab.loading import config_folders
+from attnlab.paths import PACKAGE, conf_dir
+
+
+def short(path: str) -> str:
+    """A path relative to the folder one works in, if it is below it."""
+    try:
+        return str(Path(path).resolve().relative_to(Path.cwd()))
+    except ValueError:
+        return path
+
+
+def source(spec: registry.Spec) -> str:
+    """``built in``, ``plugin`` or ``package``: which of the three doors a part came through."""
+    origin = Path(spec.origin)
+    if spec.cls.__module__.startswith("attnlab.plugins."):
+        return "plugin"
+    return "built in" if origin.is_relative_to(PACKAGE) else "package"
+
+
+def summary(cls: type, width: int = 100) -> str:
+    """The first paragraph on one line: of the file if it holds one part, otherwise of the class."""
+    alone = sum(spec.cls.__module__ == cls.__module__ for spec in registry.parts.values()) == 1
+    text = (alone and sys.modules[cls.__module__].__doc__) or inspect.getdoc(cls) or "(no docstring)"
+    return textwrap.shorten(text.strip().split("\n\n")[0], width, placeholder=" ...")
+
+
+def named_configs() -> dict[tuple[str, str], Path]:
+    """Options that exist as a yaml file alone: (group, name) -> file."""
+    taken = {(spec.group, option) for spec in registry.parts.values() for option in spec.options}
+    return {(file.parent.name, file.stem): file for group in ("reading", *GROUPS)
+            for folder in (conf_dir(), *config_folders()) for file in sorted((folder / group).glob("*.yaml"))
+            if (group, file.stem) not in taken}
+
+
+def kind_of(hint: typing.Any) -> str:
+    """A type as one reads it: ``float``, ``list[float]``, ``str or none``."""
+    if isinstance(hint, type) and not typing.get_args(hint):
+        return hint.__name__
+    return str(hint).replace("typing.", "").replace(" | None", " or none")
+
+
+def parameters(params: type, prefix: str = "") -> Iterable[str]:
+    """A line a parameter: name, type, default, unit, range, meaning; those of a nested dataclass after it."""
+    hints = typing.get_type_hints(params)
+    for field in dataclasses.fields(params):
+        made = field.default_factory is not dataclasses.MISSING
+        meta, value = field.metadata, field.default_factory() if made else field.default
+        if dataclasses.is_dataclass(value):
+            yield f"  {prefix}{field.name}: {meta.get('doc', '')}"
+            yield from parameters(type(value), f"{prefix}{field.name}.")
+            continue
+        limits = [f"at least {meta['low']}" if meta.get("low") is not None else "",
+                  f"more than {meta['above']}" if meta.get("above") is not None else "",
+                  f"at most {meta['high']}" if meta.get("high") is not None else "",
+                  "one of " + ", ".join(map(str, meta["choices"])) if meta.get("choices") else ""]
+        unit = f" {meta['unit']}" if meta.get("unit") else ""
+        limits = f" ({', '.join(filter(None, limits))})" if any(limits) else ""
+        yield f"  {prefix}{field.name}: {kind_of(hints[field.name])} = {value}{unit}{limits}"
+        yield f"      {meta.get('doc') or '(undocumented)'}"
+
+
+def about(spec: registry.Spec, option: str) -> str:
+    """All about one part."""
+    lines = [f"{spec.group}={option}   {source(spec)}: {short(spec.origin)}"]
+    if option != spec.name:
+        lines.append(f"  a preset of {spec.name}: " + ", ".join(f"{k}={v}" for k, v in spec.presets[option].items()))
+    lines += ["", inspect.getdoc(spec.cls) or "(no docstring)", ""]
+    if dataclasses.fields(spec.params):
+        lines += [f"Parameters (set with {spec.group}.<name>=<value>"
+                  + (f", for behaviours: behaviours.{option}.<name>=<value>)" if spec.group == "behaviours" else ")"),
+                  *parameters(spec.params)]
+    else:
+        lines.append("It takes no parameters." + (f" Used as reading.penalised={option}." if spec.group == "penalty"
+                                                  else ""))
+    if spec.presets and option == spec.name:
+        lines += ["Presets:", *(f"  {name}: {values}" for name, values in spec.presets.items())]
+    return "\n".join(lines)
+
+
+def about_config(group: str, name: str, file: Path) -> str:
+    """All about an option that is a yaml file, and for a reading the settings it may change."""
+    lines = [f"{group}={name}   config: {short(str(file))}", "", file.read_text().rstrip()]
+    return "\n".join(lines)
+
+
+def about_reading() -> str:
+    """The default reading: every setting it holds."""
+    from attnlab import reading
+    return "\n".join([f"reading=inferred   built in: {short(reading.__file__)}", "", inspect.getdoc(reading), "",
+                      "Parameters (set with reading.<name>=<value>)", *parameters(reading.Reading)])
+
+
+def find(wanted: str) -> str:
+    """The text about every part of this name (``name`` or ``group/name``)."""
+    group, _, name = wanted.rpartition("/")
+    found = [about(spec, name) for spec in registry.parts.values()
+             if name in spec.options and group in ("", spec.group)]
+    found += [about_config(g, n, file) for (g, n), file in named_configs().items() if n == name and group in ("", g)]
+    if wanted in ("inferred", "reading", "reading/inferred"):
+        found = [about_reading()]
+    for module, (file, cause) in registry.failures.items():
+        if name in (module, module.rpartition(".")[2]):
+            found.append(f"{short(file)} failed to load: {describe(cause)}")
+    if not found:
+        names = [option for spec in registry.parts.values() for option in spec.options]
+        raise ConfigError(wanted, "no part is called that", nearest(name, {*names, *(n for _, n in named_configs())}))
+    return "\n\n".join(found)
+
+
+def rows(group: str) -> Iterable[tuple[str, str, str]]:
+    """(option, where it comes from, what it is) of all options of a group."""
+    if group == "reading":
+        yield "inferred", "built in", "The default reading of the paper's open points"
+    for spec in sorted((s for s in registry.parts.values() if s.group == group), key=lambda s: s.name):
+        where = "built in" if source(spec) == "built in" else f"{source(spec)}, {short(spec.origin)}"
+        yield spec.name, where, summary(spec.cls)
+        for preset, values in sorted(spec.presets.items()):
+            yield preset, where, f"{spec.name} with " + ", ".join(f"{k}={v}" for k, v in values.items())
+    for (owner, name), file in named_configs().items():
+        if owner == group:
+            first = file.read_text().partition("\n")[0]
+            yield name, "config", first.lstrip("# ") if first.startswith("#") else short(str(file))
+
+
+def table() -> str:
+    """All parts by group, a line each, and what failed to load."""
+    lines = []
+    for group in ("reading", *GROUPS):
+        lines += [group, *(f"  {name:<20} {where:<10} {what}" for name, where, what in rows(group))]
+    if registry.failures:
+        lines += ["", "failed to load (the others are not affected)"]
+        lines += [f"  {short(file)}: {describe(cause)}" for file, cause in registry.failures.values()]
+    return "\n".join(lines)

@@ -1,0 +1,71 @@
+"""One run: training episodes, then validation episodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from attnlab.cycle import Agent, machine_cycle
+from attnlab.errors import PartError
+from attnlab.exploration.base import Exploration
+from attnlab.robot.guards import diagnose
+from attnlab.robot.plan import RunPlan
+from attnlab.robot.record import Moment, Recorder, Tables
+
+Progress = Callable[[int, int], None]  # (episodes done, cycles done)
+
+
+def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, float, float], learning: bool
+                ) -> tuple[list[Moment], str | None, list[float]]:
+    """One episode from ``start`` (m, m, rad): its history, the cause of death or None, each behaviour's penalty."""
+    agent.start(*start)
+    simulator, body = agent.simulator, agent.body
+    history, death = [(0, 0, body.energy, *body.values)], None
+    while death is None and simulator.cycle < agent.max_cycles:
+        active, death = machine_cycle(agent, exploration, learning)
+        history.append((simulator.cycle, active, body.energy, *body.values))
+    body.dead = death is not None
+    penalties = agent.died(death, learning) if death else [0.0] * len(agent.attentions)
+    return history, death, penalties
+
+
+def play_run(plan: RunPlan, run: str = "run", swept: Mapping[str, Any] | None = None,
+             progress: Progress | None = None, folder: Path | None = None) -> tuple[Tables, int]:
+    """All episodes of a run; (tables as lists by column, machine cycles simulated).
+
+    ``folder``: where a learner that works offline keeps its journal."""
+    s = plan.settings
+    recorder = Recorder(run, s.seed, s.curiosity["name"], dict(swept or {}), plan.layout, s.check_identities)
+    done = cycles = 0
+    phases = [("train", s.train_episodes), ("validation", s.validation_episodes)]
+    last = max(i for i, (_, episodes) in enumerate(phases) if episodes)
+    plan.prepare(folder)
+    simulator, agent = plan.simulator(), None
+    try:
+        agent = plan.agent(simulator)
+        for index, (phase, episodes) in enumerate(phases):
+            exploration = plan.exploration(phase)
+            learning = phase == "train"
+            if phase == "validation" and plan.validation_spec is not None:
+                simulator.close()
+                agent.simulator = agent.now.simulator = simulator = plan.simulator(validation=True)
+            for episode in range(episodes):
+                if learning:
+                    exploration.start(episode)
+                outcome = run_episode(agent, exploration, plan.start_pose(phase, episode), learning)
+                full = (s.record == "all" or (s.record == "validation" and phase == "validation")
+                        or (s.record == "last" and index == last and episode == episodes - 1))
+                recorder.episode(agent, phase, episode, *outcome, full)
+                done, cycles = done + 1, cycles + simulator.cycle
+                if progress:
+                    progress(done, cycles)
+        return recorder.finish(agent), cycles
+    except PartError:
+        raise
+    except Exception:
+        if agent is not None:
+            diagnose(agent)  # raises, and names the part, if one gave what it must not
+        raise
+    finally:
+        simulator.close()

@@ -1,0 +1,1 @@
+"""What both wings share: the columns of the tables, files that are whole or not there."""
