@@ -11,6 +11,7 @@ import math
 import types
 import typing
 from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 from attnlab.errors import ConfigError, nearest
@@ -50,7 +51,7 @@ def build(cls: type, node: Any, where: str) -> Any:
         if key not in fields:
             known = nearest(str(key), fields) if fields else "It takes no settings"
             raise ConfigError(f"{where}.{key}" if where else str(key), "no such setting", known)
-    hints = typing.get_type_hints(cls)
+    hints = _hints(cls)
     values = {}
     for key, value in node.items():
         path = f"{where}.{key}" if where else key
@@ -62,6 +63,11 @@ def build(cls: type, node: Any, where: str) -> Any:
         inner = error.setting
         setting = ".".join(name for name in (where, inner) if name)
         raise ConfigError(setting, error.problem, error.hint) from None
+
+
+@cache
+def _hints(cls: type) -> dict[str, Any]:
+    return typing.get_type_hints(cls)
 
 
 def convert(value: Any, kind: Any, where: str) -> Any:

@@ -42,3 +42,8 @@ def claims_path(name: str) -> Path:
 def claims_hash(name: str) -> str:
     """SHA-256 (64 hex digits) of the bytes of a claims file; ``name`` as in :func:`claims_path`."""
     return hashlib.sha256(claims_path(name).read_bytes()).hexdigest()
+
+
+def claims_mark(name: str) -> dict[str, str]:
+    """Name and hash of a claims file as it is now: what is stored with a run, so that later changes show."""
+    return {"name": name, "sha256": claims_hash(name)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from attnlab.errors import ConfigError, nearest
-from attnlab.launch.ranges import RANGED, seeds
+from attnlab.tables.ranges import RANGED, seeds
 
 FLAGS = ("-m", "--multirun", "-h", "--help", "--version", "-c", "--cfg", "-p", "--package", "--resolve", "-cn",
          "--config-name", "-cp", "--config-path", "-cd", "--config-dir", "-i", "--info", "--hydra-help", "-sc",

@@ -114,5 +114,5 @@ def options(group: str) -> list[str]:
     names = {option for spec in registry.parts.values() if spec.group == group for option in spec.nodes()}
     for folder in (conf_dir(), *config_folders()):
         names |= {file.stem for file in (folder / group).glob("*.yaml")}
-    names |= {"reading": {"inferred"}, "cluster": {"local"}}.get(group, set())
+    names |= {"reading": {"inferred"}}.get(group, set())
     return sorted(names)

@@ -37,7 +37,7 @@ def help_text() -> str:
     """Commands, then the choices of each group, then the settings."""
     lines = [TEXT, "Choices (group=option):"]
     groups = [group for group in registry.GROUPS if group in RunSettings.__dataclass_fields__]
-    for group in ("experiment", *groups, "reading", "cluster"):
+    for group in ("experiment", *groups, "reading"):
         names = options(group)
         if names:
             lines += textwrap.wrap(", ".join(names), 100, initial_indent=f"  {group:13}", subsequent_indent=" " * 15)

@@ -39,7 +39,6 @@ def _hydra(arguments: list[str]) -> int:
     """Run Hydra's application on these arguments."""
     os.environ["HYDRA_FULL_ERROR"] = "1"  # raise, so that errors can be explained
     import hydra
-    from omegaconf import OmegaConf
 
     from attnlab.cli.explain import explain
     from attnlab.cli.store import store_options
@@ -52,11 +51,7 @@ def _hydra(arguments: list[str]) -> int:
 
     @hydra.main(version_base="1.3", config_path=str(conf_dir()), config_name="config")
     def application(config) -> None:
-        """Reached only through a launcher of another package: one run in this process."""
-        from attnlab.launch.study import make_job
-        from attnlab.robot.folder import run_to_folder
-        job = make_job(OmegaConf.to_container(config, resolve=True), [], {})
-        run_to_folder(job.config, job.folder, job.info)
+        """Never called: the sweeper does the runs."""
 
     saved, sys.argv = sys.argv, ["attnlab", *arguments]
     try:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from attnlab import registry
 from attnlab.config import RunSettings
-from attnlab.launch.settings import LocalCluster
 from attnlab.reading import Reading
 from attnlab.settings import defaults_of
 
-GROUPS_OF_RUN = {group for group in (*registry.GROUPS, "reading", "cluster")
+GROUPS_OF_RUN = {group for group in (*registry.GROUPS, "reading")
                  if group in RunSettings.__dataclass_fields__}
 
 
@@ -26,7 +25,6 @@ def store_options() -> None:
     store.store(name="settings", node=root_node(), provider="attnlab")
     store.store(group="reading", name="inferred", node={"name": "inferred", **defaults_of(Reading)},
                 provider="attnlab")
-    store.store(group="cluster", name="local", node={"name": "local", **defaults_of(LocalCluster)}, provider="attnlab")
     for (group, _), spec in registry.parts.items():
         if group not in GROUPS_OF_RUN:
             continue  # measures, say: parts of a report, not of a run

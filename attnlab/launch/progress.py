@@ -6,7 +6,7 @@ import sys
 import time
 from typing import Any
 
-from attnlab.launch.study import Job
+from attnlab.launch.jobs import Job
 
 PLAIN_EVERY_S = 15.0
 
@@ -72,6 +72,9 @@ class Display:
         if about.get("status") != "complete":
             lines = (about.get("error") or "no reason was stored").strip().splitlines()
             self.failed.append((job, lines[-1]))
-            print_to = self._bar.console.print if self._bar else lambda text: print(text, file=sys.stderr, flush=True)
-            print_to(f"  failed: {job.run}: {lines[-1]}")
+            line = f"  failed: {job.run}: {lines[-1]}"
+            if self._bar:
+                self._bar.console.print(line, markup=False, highlight=False)
+            else:
+                print(line, file=sys.stderr, flush=True)
         self.tick()

@@ -1,30 +1,36 @@
 """Hydra's sweep as a study: every job composed and checked before the first one runs, complete ones left alone.
 
-Registered from the command line under the name ``basic``, in this process only, so that experiment files and
-launchers from other packages can be chosen as usual and no other Hydra application is touched.
+Registered from the command line under the name ``basic``, in this process only, so that experiment files can be chosen
+as usual and no other Hydra application is touched.
 """
 
 from __future__ import annotations
 
-import copy
 import itertools
 import sys
 import types
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from hydra.core.config_store import ConfigStore
-from hydra.core.override_parser.overrides_parser import OverridesParser
+from hydra.core.override_parser.types import Override
 from hydra.core.plugins import Plugins
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from hydra.plugins.sweeper import Sweeper
-from omegaconf import OmegaConf, open_dict
+from omegaconf import OmegaConf
 
+from attnlab.claims import claims_mark
+from attnlab.config import COSMETIC
 from attnlab.errors import ConfigError
-from attnlab.launch.ranges import RANGED, seeds
-from attnlab.launch.study import Job, check_place, make_job
+from attnlab.groups import GROUPS
+from attnlab.launch.compose import Composer
+from attnlab.launch.jobs import Job, check_different, condition_of, make_job
+from attnlab.launch.place import check_place
 from attnlab.launch.variants import as_override, read_variants
 from attnlab.loading import config_folders
+from attnlab.registry import build_params
+from attnlab.robot.plan import RunPlan
+from attnlab.tables.ranges import RANGED, seeds
 
 MOST_RUNS = 100_000
 NAMESPACE = "hydra_plugins.attnlab"
@@ -45,83 +51,108 @@ class StudySweeper(Sweeper):
 
     def sweep(self, arguments: list[str]) -> None:
         from attnlab.launch.drive import drive
-        jobs, swept = self.jobs(arguments)
+        jobs = self.jobs(arguments)
         check_place(jobs)
         type(self).exit_code = drive(jobs, arguments)
 
-    def jobs(self, arguments: Sequence[str]) -> tuple[list[Job], list[str]]:
-        """All jobs of the sweep, checked, and the names of the swept settings (but seed)."""
-        parser = OverridesParser.create(config_loader=self.hydra_context.config_loader)
-        given = {override.get_key_element(): override for override in parser.parse_overrides(list(arguments))}
-        params = []
-        for key, value in (self.params or {}).items():
-            text = ",".join(map(str, seeds(key, str(value)))) if key in RANGED else value
-            params.append(f"{key}={text}")
-        merged = {override.get_key_element(): override for override in parser.parse_overrides(params)}
-        merged.update(given)  # what is typed replaces what the experiment sweeps
-        swept = [key.lstrip("+~") for key, override in merged.items() if override.is_sweep_override()]
-        for name in ("study", "outputs", "fresh", "cluster", "labels"):
-            if name in swept:
-                raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
-        self._check_size(merged.values())
-        variants = read_variants(OmegaConf.to_container(self.config.variants) if self.config.variants else None)
-        choices = [[f"{key}={value}" for value in override.sweep_string_iterator()] if override.is_sweep_override()
-                   else [f"{key}={override.get_value_element_as_str()}"] for key, override in merged.items()]
-        combinations = list(itertools.product(*choices))
-        composed: dict[tuple[str, ...], dict] = {}
-        jobs: dict[str, Job] = {}
-        for typed in combinations:
+    def jobs(self, arguments: Sequence[str]) -> list[Job]:
+        """All jobs of the sweep, checked."""
+        composer = Composer(self.hydra_context.config_loader, self.config)
+        merged = self._merged(composer, arguments)
+        swept = [_name(override) for override in merged.values() if override.is_sweep_override()]
+        for name in sorted(COSMETIC & set(swept)):
+            raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
+        _check_size(merged.values())
+        node = OmegaConf.to_container(self.config.variants) if OmegaConf.is_config(self.config.variants) \
+            else self.config.variants
+        variants = read_variants(node)
+        jobs: list[Job] = []
+        for typed in itertools.product(*(_choices(o) for key, o in merged.items() if key != "seed")):
             for name, together in variants.items():
                 # What is swept or typed for one of a variant's settings gives way: the variant is what is compared.
                 overrides = [o for o in typed if _key(o) not in together]
                 overrides += [f"{key}={as_override(value)}" for key, value in together.items()]
-                config = self._compose(tuple(overrides), composed)
-                values = {key: self._value(overrides, key) for key in swept if key != "seed"}
+                values = {key: _value(overrides, key) for key in swept if key != "seed" and key not in together}
+                named = list(values)
                 if name is not None:
-                    values.update({"variant": name, **{key: _plain(value) for key, value in together.items()}})
-                named = [key for key in values if key not in together]
-                job = make_job(config, overrides, values, named)
-                jobs.setdefault(job.key, job)
-        return list(jobs.values()), [key for key in swept if key != "seed"]
+                    values.update({"variant": name, **{key: _shown(value) for key, value in together.items()}})
+                    named.append("variant")
+                jobs += _of_condition(composer.config(overrides), overrides, values, named, merged.get("seed"))
+        check_different(jobs)
+        _check_once(jobs)
+        return jobs
 
-    def _check_size(self, overrides) -> None:
-        count = 1
-        for override in overrides:
-            if override.is_discrete_sweep():
-                count *= max(1, sum(1 for _ in override.sweep_string_iterator()))
-            elif override.is_sweep_override():
-                raise ConfigError(override.get_key_element(), "interval(...) cannot be swept over all its values",
-                                  "List them: a,b,c")
-        if count > MOST_RUNS:
-            raise ConfigError("-m", f"this sweep has {count:,} runs, more than {MOST_RUNS:,}")
+    def _merged(self, composer: Composer, arguments: Sequence[str]) -> dict[str, Override]:
+        """Overrides by setting: what the experiment file sweeps, replaced by what is typed."""
+        params = []
+        for key, value in (self.params or {}).items():
+            text = ",".join(map(str, seeds(key, str(value)))) if key in RANGED else value
+            params.append(f"{key}={text}")
+        merged: dict[str, Override] = {}
+        for override in (*composer.parser.parse_overrides(params), *composer.parser.parse_overrides(list(arguments))):
+            name = _name(override)
+            several = override.is_add() and name in GROUPS and GROUPS[name].chosen == "list"  # +behaviours=rest
+            merged[str(override.input_line) if several else name] = override
+        return merged
 
-    def _compose(self, overrides: tuple[str, ...], composed: dict) -> dict[str, Any]:
-        """The resolved config of a job; runs that differ in the seed alone are composed once."""
-        rest = tuple(o for o in overrides if not o.startswith("seed="))
-        if rest not in composed:
-            config = self.hydra_context.config_loader.load_sweep_config(self.config, list(rest))
-            with open_dict(config):
-                config.pop("hydra")
-            composed[rest] = OmegaConf.to_container(config, resolve=True)
-        config = copy.deepcopy(composed[rest])
-        for override in overrides:
-            if override.startswith("seed="):
-                config["seed"] = int(override.partition("=")[2])
-        return config
 
-    @staticmethod
-    def _value(overrides: Sequence[str], key: str) -> Any:
-        import yaml
-        text = next(o.partition("=")[2] for o in overrides if _key(o) == key)
-        value = yaml.safe_load(text) if text[:1] not in "[{" else text
-        return value if isinstance(value, (int, float, bool, str)) else text
+def _of_condition(config: dict[str, Any], overrides: list[str], values: dict[str, Any], named: list[str],
+                  seed: Override | None) -> Iterator[Job]:
+    """The jobs of a condition, one a seed; its config is checked once, its world for every seed."""
+    condition = condition_of(config, values)
+    numbers = [config["seed"]] if seed is None else [int(o.partition("=")[2]) for o in _choices(seed)]
+    plan = None
+    for number in numbers:
+        plan = RunPlan({**config, "seed": number}) if plan is None else plan.with_seed(number)
+        more = [] if seed is None else [f"seed={number}"]
+        yield make_job(plan, [*overrides, *more], values, named, condition)
+
+
+def _check_once(jobs: Sequence[Job]) -> None:
+    """What is the same for all jobs of a command: the cluster, and the claims file, whose mark they keep."""
+    settings = jobs[0].settings
+    build_params("cluster", settings.cluster, "cluster")
+    claims = claims_mark(settings.claims_file) if settings.claims_file else None
+    for job in jobs:
+        job.claims = claims
+
+
+def _check_size(overrides: Iterable[Override]) -> None:
+    count = 1
+    for override in overrides:
+        if override.is_discrete_sweep():
+            count *= max(1, sum(1 for _ in override.sweep_string_iterator()))
+        elif override.is_sweep_override():
+            raise ConfigError(override.get_key_element(), "interval(...) cannot be swept over all its values",
+                              "List them: a,b,c")
+    if count > MOST_RUNS:
+        raise ConfigError("-m", f"this sweep has {count:,} runs, more than {MOST_RUNS:,}")
+
+
+def _choices(override: Override) -> list[str]:
+    """An override as a list of plain ones."""
+    key = override.get_key_element()
+    if override.is_sweep_override():
+        return [f"{key}={value}" for value in override.sweep_string_iterator()]
+    return [f"{key}={override.get_value_element_as_str()}" if not override.is_delete() else str(override.input_line)]
+
+
+def _name(override: Override) -> str:
+    return str(override.get_key_element().lstrip("+~"))
 
 
 def _key(override: str) -> str:
     return override.partition("=")[0].lstrip("+~")
 
 
-def _plain(value: Any) -> Any:
+def _value(overrides: Sequence[str], key: str) -> Any:
+    import yaml
+    text = next(o.partition("=")[2] for o in overrides if _key(o) == key)
+    value = yaml.safe_load(text) if text[:1] not in "[{" else text
+    return _shown(value) if value is not None else text
+
+
+def _shown(value: Any) -> Any:
     return value if isinstance(value, (int, float, bool, str)) else str(value)
 
 

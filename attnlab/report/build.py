@@ -49,7 +49,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
         if len(judged) >= multiverse.LEAST_READINGS:
             more, section = _multiverse(multiverse.analyse(conditions, judged), target)
             shown, sections = more + shown, [section, *sections]
-    sections.append(provenance.commands(study, conditions))
+    sections.append(provenance.commands(study))
     notes = provenance.notes(study, conditions, claims)
     if not conditions.strata:
         notes.insert(0, "there is no complete run in this study, so there is nothing to draw or to judge")

@@ -12,7 +12,7 @@ MOST = 40
 
 def section(study: Study, conditions: Conditions) -> tuple[Section, bytes]:
     """The table for the page (of the first 40 conditions) and as CSV (of all)."""
-    frame = summary_frame(study, conditions.named())
+    frame = summary_frame(study, study.named())
     names = ", ".join(study.behaviours["behaviour"].unique())
     rows = [shown(row) for row in frame.head(MOST).to_dict("records")]
     more = f" The first {MOST} of {len(frame)}; all are in conditions.csv." if len(frame) > MOST else ""

@@ -14,8 +14,8 @@ from attnlab.claims.judge import REPRODUCED, UNTESTABLE, Verdict
 from attnlab.report.page import Section, table
 from attnlab.report.style import GREY, WIDTH_IN, cut
 from attnlab.results.conditions import Conditions
-from attnlab.results.flat import text
 from attnlab.stats import bootstrap_interval
+from attnlab.tables.flat import text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
-from collections.abc import Sequence
 from datetime import UTC, datetime
 from html import escape
 
@@ -13,6 +12,9 @@ from attnlab.claims.files import Claims
 from attnlab.report.page import Section, table
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study
+from attnlab.tables.ranges import compact
+
+MOST_LINES = 12
 
 
 def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
@@ -71,34 +73,24 @@ def _uneven(conditions: Conditions) -> list[str]:
     return found[:12]
 
 
-def commands(study: Study, conditions: Conditions) -> Section:
-    """What to type to make runs and page again, from the overrides that the runs were started with."""
-    swept: dict[str, list[str]] = {}
-    for run in sorted(conditions.configs, key=lambda r: (study.about(r).get("seed") or 0, r)):
-        for override in study.about(run).get("overrides") or []:
-            key, _, value = str(override).partition("=")
-            values = swept.setdefault(key, [])
-            if value not in values:
-                values.append(value)
-    words = [f"{key}={','.join(_ranges(values) if key == 'seed' else values)}" for key, values in sorted(swept.items())]
-    many = any(len(values) > 1 for values in swept.values())
-    lines = [" ".join(["python -m attnlab", *(["-m"] if many else []), *map(shlex.quote, words)]),
-             f"python -m attnlab.report outputs/{shlex.quote(study.path.name)}"]
+def commands(study: Study) -> Section:
+    """What to type to make runs and page again: the commands that asked for them."""
+    lines = list(dict.fromkeys(" ".join(["python -m attnlab", *map(shlex.quote, command["typed"])])
+                               for command in study.file.commands)) or _from_runs(study)
+    lines.append(f"python -m attnlab.report outputs/{shlex.quote(study.name)}")
     return Section("again", "Make it again", f"<pre>{escape(chr(10).join(lines))}</pre>"
                    "<p class=small>Runs that are complete already are not run again.</p>")
 
 
-def _ranges(values: Sequence[str]) -> list[str]:
-    """["0", "1", "2", "5"] -> ["0-2", "5"]; anything else as it is."""
-    if not all(v.isdigit() for v in values):
-        return list(values)
-    runs: list[list[int]] = []
-    for number in sorted(map(int, values)):
-        if runs and number == runs[-1][1] + 1:
-            runs[-1][1] = number
-        else:
-            runs.append([number, number])
-    return [f"{a}-{b}" if b > a else str(a) for a, b in runs]
+def _from_runs(study: Study) -> list[str]:
+    """The commands of a study that has none on file: one for each condition, from the overrides of its runs."""
+    seeds: dict[str, list[int]] = {}
+    for run in study.named():
+        words = [str(o) for o in study.about(run).get("overrides") or [] if not str(o).startswith("seed=")]
+        seeds.setdefault(" ".join(map(shlex.quote, words)), []).append(study.seed(run))
+    lines = [" ".join(filter(None, ["python -m attnlab", words, f"seed={compact(sorted(of))}"]))
+             for words, of in seeds.items()]
+    return lines[:MOST_LINES] + [f"# and {len(lines) - MOST_LINES} more"] * (len(lines) > MOST_LINES)
 
 
 def block(study: Study, conditions: Conditions, claims: Claims) -> str:

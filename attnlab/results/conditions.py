@@ -1,29 +1,28 @@
 """A study seen as conditions: which runs belong together, what sets them apart, what they are called.
 
-Runs are sorted by curiosity, by the swept settings, and by any setting that differs although nobody swept it (two
-studies mixed in one folder). Everything that goes beyond one run (measures, claims, figures) reads through here.
+Conditions and their names are those of the study's file. Runs are sorted by curiosity and by the settings that set
+conditions apart. Everything that goes beyond one run (measures, claims, figures) reads through here.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from attnlab.config import COSMETIC, layout_of, recorded_reading
+from attnlab.config import layout_of, recorded_reading
 from attnlab.errors import ConfigError
 from attnlab.loading import load_all
-from attnlab.results.flat import dig, flatten, natural, text
 from attnlab.results.load import Study
+from attnlab.tables.flat import dig, text
+from attnlab.tables.naming import value_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from attnlab.reading import Reading
     from attnlab.worlds.base import Layout
-
-IGNORED = {*COSMETIC, "seed", "experiment"}  # set no conditions apart
 
 
 class Runs:
@@ -58,60 +57,21 @@ class Conditions:
     """
 
     def __init__(self, study: Study, labels: Mapping[str, str] | None = None):
-        self.study, self.notes = study, []
-        self.configs = {run: study.config(run) for run in study.complete}
-        self.configs = {run: config for run, config in self.configs.items() if config is not None}
-        for run in sorted(set(study.complete) - set(self.configs)):
-            self.notes.append(f"run {run} is left out: its config.yaml is missing or unreadable")
-        declared = [name for name in study.swept if name not in ("seed", "curiosity")]
-        self.declared = list(declared)
-        self.settings = declared + self._undeclared(declared)
-        self.labels = {str(k): str(v) for c in self.configs.values() for k, v in (c.get("labels") or {}).items()}
-        for value, name in (labels or {}).items():
-            self.labels.setdefault(str(value), str(name))
+        self.study, self.notes = study, list(study.file.notes)
+        self.configs = {run: study.config(run) for run in sorted(study.complete)}
+        self.settings = list(study.swept)
+        self.labels = {**{str(value): str(name) for value, name in (labels or {}).items()}, **study.file.labels}
+        self._texts = {c.name: tuple(text(c.settings.get(name)) for name in ("curiosity", *self.settings))
+                       for c in study.file.conditions}
         self._by_key = self._sort_runs()
         self._indices: dict[str, dict[str, Any]] = {}
         self._layouts: dict[str, Layout | None] = {}
 
-    # which runs belong together
-
-    def _undeclared(self, declared: list[str]) -> list[str]:
-        """Settings that differ between runs of the same swept settings; each gets a note."""
-        flat = {run: flatten(config) for run, config in self.configs.items()}
-        groups: dict[tuple, list[str]] = {}
-        for run in self.configs:
-            groups.setdefault(tuple(text(self._value(run, name)) for name in declared), []).append(run)
-        found: dict[str, dict[str, int]] = {}
-        for runs in groups.values():
-            for name in sorted({name for run in runs for name in flat[run]}):
-                counts: dict[str, int] = {}
-                for run in runs:
-                    value = text(flat[run].get(name))
-                    counts[value] = counts.get(value, 0) + 1
-                if len(counts) > 1 and not (name.startswith("curiosity.") or name.partition(".")[0] in IGNORED):
-                    total = found.setdefault(name, {})
-                    for value, count in counts.items():
-                        total[value] = total.get(value, 0) + count
-        found = {name: counts for name, counts in found.items() if not _follows(name, found, flat)}
-        for name, counts in found.items():
-            parts = " and ".join(f"{value} in {n} run{'s' * (n > 1)}" for value, n in sorted(counts.items()))
-            self.notes.append(f"runs of different studies are mixed here: {name} is {parts}; shown as conditions apart")
-        return sorted(found)
-
-    def _value(self, run: str, name: str) -> Any:
-        swept = self.study.about(run).get("swept") or {}
-        if name in swept:
-            return swept[name]
-        value = dig(self.configs[run], name)
-        return value.get("name") if isinstance(value, Mapping) else value
-
-    def _sort_runs(self) -> dict[tuple, dict[int, str]]:
-        keys: dict[tuple, dict[int, str]] = {}
-        for run in sorted(self.configs):
-            about = self.study.about(run)
-            key = (str(about.get("curiosity")), *(text(self._value(run, name)) for name in self.settings))
-            seeds = keys.setdefault(key, {})
-            seed = about.get("seed")
+    def _sort_runs(self) -> dict[tuple[str, ...], dict[int, str]]:
+        """(curiosity, settings) -> seed -> run, in the order in which conditions were asked for."""
+        keys: dict[tuple[str, ...], dict[int, str]] = {}
+        for run in self.study.named():
+            seeds, seed = keys.setdefault(self._texts[self.study.condition(run).name], {}), self.study.seed(run)
             if seed in seeds:
                 self.notes.append(f"run {run} is left out: seed {seed} of its condition is there already "
                                   f"({seeds[seed]})")
@@ -123,18 +83,21 @@ class Conditions:
 
     @cached_property
     def curiosities(self) -> list[str]:
-        """Values of curiosity, those with a label first (CR before NCR as labelled), then by name."""
-        found = sorted({key[0] for key in self._by_key})
-        order = list(self.labels)
-        return sorted(found, key=lambda c: (order.index(c) if c in order else len(order), c))
+        """Values of curiosity, those with a label first (CR before NCR as labelled), then as they were asked for."""
+        return self._labelled(dict.fromkeys(key[0] for key in self._by_key))
 
     @cached_property
     def strata(self) -> list[tuple[str, ...]]:
         """Combinations of ``settings`` (as texts) that have runs, those with a label in the order of the labels, then
-        by number and name; [()] if nothing else differs."""
-        found, order = {key[1:] for key in self._by_key}, list(self.labels)
-        return sorted(found, key=lambda stratum: [(order.index(value) if value in order else len(order),
-                                                   natural(value)) for value in stratum])
+        as they were asked for; [()] if nothing else differs."""
+        order = list(self.labels)
+        found = dict.fromkeys(key[1:] for key in self._by_key)
+        return sorted(found, key=lambda stratum: [order.index(value) if value in order else len(order)
+                                                  for value in stratum])
+
+    def _labelled(self, values: Iterable[str]) -> list[str]:
+        order = list(self.labels)
+        return sorted(values, key=lambda value: order.index(value) if value in order else len(order))
 
     def runs(self, curiosity: str, stratum: tuple[str, ...] = ()) -> Runs:
         """The runs of a condition; empty if there are none."""
@@ -155,8 +118,8 @@ class Conditions:
     def _fits(self, has: Mapping[str, str], seeds: Mapping[int, str], name: str, value: Any) -> bool:
         if name in has:
             return has[name] == text(value)
-        run = next(iter(seeds.values()))
-        return text(self._value(run, name)) == text(value)
+        config = self.configs[next(iter(seeds.values()))]
+        return text(value_of({}, config, name)) == text(value)
 
     def name(self, curiosity: str) -> str:
         """What a curiosity is called in figures."""
@@ -174,18 +137,6 @@ class Conditions:
         if len(stratum) == 1 and list(self.labels.values()).count(self.labels.get(stratum[0])) == 1:
             return self.labels[stratum[0]]
         return ", ".join(f"{name}={value}" for name, value in zip(self.settings, stratum, strict=True))
-
-    def named(self) -> dict[str, str]:
-        """What each run's condition is called where all are listed: run -> name, in the order of curiosities."""
-        found = {}
-        for stratum in self.strata:
-            rivals = [c for c in self.curiosities if self.runs(c, stratum).runs]
-            for curiosity in rivals:
-                name, where = self.name(curiosity), self.stratum_name(stratum)
-                alone = bool(where) and len(rivals) == 1 and where in self.labels.values()
-                called = where if alone else " ".join(filter(None, (name, where)))
-                found.update(dict.fromkeys(self.runs(curiosity, stratum).runs.values(), called))
-        return found
 
     def rows(self, table: str, runs: Mapping[int, str], equal: Mapping[str, Any]) -> pd.DataFrame:
         """Rows of runs (seed -> run) in a table."""
@@ -220,14 +171,3 @@ class Conditions:
     def frame(self, table: str) -> pd.DataFrame:
         """A whole table; of ``cycles`` only the last recorded episode of each run is read."""
         return self.study.plain(table)
-
-
-def _follows(name: str, found: Mapping[str, Any], flat: Mapping[str, Mapping[str, Any]]) -> bool:
-    """Is this setting a matter of which part was chosen? Then the part's name says it: world.name for world.boxes."""
-    part = f"{name.partition('.')[0]}.name"
-    if part == name or part not in found:
-        return False
-    values: dict[str, set[str]] = {}
-    for settings in flat.values():
-        values.setdefault(text(settings.get(part)), set()).add(text(settings.get(name)))
-    return all(len(of) == 1 for of in values.values())

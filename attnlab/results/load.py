@@ -5,19 +5,32 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attnlab.errors import ConfigError, nearest
-from attnlab.tables.files import read_json
-from attnlab.tables.schema import SCHEMA_VERSION, TABLES
+from attnlab.results.old import recovered
+from attnlab.results.states import looks_like_run, states_in
+from attnlab.tables.schema import TABLES
+from attnlab.tables.study import FILE, Condition, read_study
 
 if TYPE_CHECKING:
     import pandas as pd
     import pyarrow as pa
 
+RUNS = ["study", "run", "condition", "status", "why", "seed", "curiosity", "key", "wall_s", "cpu_s", "cycles", "error",
+        "overrides"]
 
-def load(study: str | Path) -> Study:
-    """The study in this folder (or of this name in outputs/). Raises ConfigError if there is none."""
+
+def load(*studies: str | Path) -> Study | Studies:
+    """The study in this folder (or of this name in outputs/), or several as one: their frames one below the other.
+    Raises ConfigError if there is none."""
+    if not studies:
+        raise ConfigError("load", "names no study", 'load("outputs/cr_vs_ncr")')
+    found = [Study(_folder(study)) for study in studies]
+    return found[0] if len(found) == 1 else Studies(found)
+
+
+def _folder(study: str | Path) -> Path:
     path = Path(study)
     if not path.is_dir() and (Path("outputs") / path).is_dir():
         path = Path("outputs") / path
@@ -25,38 +38,18 @@ def load(study: str | Path) -> Study:
         known = sorted(p.name for p in Path("outputs").glob("*") if p.is_dir())
         raise ConfigError(str(study), "there is no such study", nearest(path.name, known) if known else
                           "Run one first: python -m attnlab +experiment=smoke")
-    return Study(path)
+    if not (path / FILE).exists() and not any(looks_like_run(p) for p in path.iterdir() if p.is_dir()):
+        inside = sorted(p.name for p in path.iterdir() if p.is_dir() and is_study(p))
+        if inside:
+            raise ConfigError(str(study), "is no study but holds some", f"Name one: {', '.join(inside[:12])}")
+        if looks_like_run(path):
+            raise ConfigError(str(study), "is one run of a study", f"Name the study: {path.parent}")
+    return path
 
 
-def state_of(folder: Path) -> tuple[str, str, dict]:
-    """(status, why, run.json) of a run folder. ``damaged``: it says complete, but a table is missing or broken."""
-    about = read_json(folder / "run.json")
-    if about is None:
-        missing = "no run.json" if not (folder / "run.json").exists() else "run.json is not readable"
-        return "incomplete", f"{missing}; the run was interrupted or is not one", {}
-    status = str(about.get("status"))
-    if status == "complete":
-        if about.get("schema") != SCHEMA_VERSION:
-            return "damaged", (f"tables of schema {about.get('schema')}, this version reads schema {SCHEMA_VERSION}; "
-                               "run it again with fresh=true"), about
-        for table in TABLES:
-            problem = _check_parquet(folder / f"{table}.parquet")
-            if problem:
-                return "damaged", problem, about
-    error = (about.get("error") or "").strip().splitlines()
-    return status, error[-1] if error else "", about
-
-
-def _check_parquet(path: Path) -> str:
-    """Empty if the file has a Parquet head and tail, else what is wrong. Cheap: reads 8 bytes."""
-    try:
-        with open(path, "rb") as file:
-            head = file.read(4)
-            file.seek(-4, 2)
-            tail = file.read(4)
-    except OSError:
-        return f"{path.name} is missing or cut off"
-    return "" if head == tail == b"PAR1" else f"{path.name} is cut off or no Parquet file"
+def is_study(path: Path) -> bool:
+    """Has this folder runs, or a file that asks for some?"""
+    return (path / FILE).exists() or any(looks_like_run(p) for p in path.iterdir() if p.is_dir())
 
 
 class Study:
@@ -64,59 +57,90 @@ class Study:
 
     def __init__(self, path: Path):
         self.path = path
-        self._states = {folder.name: state_of(folder) for folder in sorted(path.iterdir())
-                        if folder.is_dir() and _looks_like_run(folder)}
+        self._states = states_in(path)
+        self.file = read_study(path) or recovered(path, self._states)
+        self._conditions = self.file.by_name()
+        self._asked = {run.name: run for run in self.file.runs}
         self._broken: dict[str, str] = {}
-        self._configs: dict[str, dict | None] = {}
         self._plain: dict[str, pd.DataFrame] = {}
+        self._settle()
+
+    def _settle(self) -> None:
+        """What was asked for and never started is missing; what was not asked for is no part of the study."""
+        by_key = {run.key: run.name for run in self.file.runs}
+        for name, (_, _, about) in list(self._states.items()):
+            if name in self._asked or "status" not in about:
+                continue
+            home = by_key.get(str(about.get("key")))
+            why = f"a copy of {home}" if home else "not asked for in study.json"
+            self._states[name] = ("not asked for", why, about)
+        for name in self._asked:
+            self._states.setdefault(name, ("missing", "was asked for and never started", {}))
 
     def __repr__(self) -> str:
-        return (f"Study('{self.path}'): {len(self.complete)} complete runs of {len(self._states)}; frames: "
+        return (f"Study('{self.path}'): {len(self.complete)} complete runs of {len(self._asked)}; frames: "
                 f"{', '.join(TABLES)}, runs")
+
+    @property
+    def name(self) -> str:
+        """What the study is called: its folder."""
+        return self.path.resolve().name
 
     @cached_property
     def runs(self) -> pd.DataFrame:
-        """One row a run: run, status, why, seed, curiosity, key, wall_s, cycles, error and the swept settings."""
+        """One row a run that was asked for, missing and failed ones included, and for every other run folder: study,
+        run, condition, status, why, seed, curiosity, key, wall_s, cpu_s, cycles, error, overrides and the swept
+        settings."""
         import pandas as pd
         rows = []
         for name, (status, why, about) in self._states.items():
             if name in self._broken:
                 status, why = "damaged", self._broken[name]
-            rows.append({"run": name, "status": status, "why": why, "seed": about.get("seed"),
-                         "curiosity": about.get("curiosity"), "key": about.get("key"), "wall_s": about.get("wall_s"),
-                         "cpu_s": about.get("cpu_s"), "cycles": about.get("cycles"), "error": about.get("error"),
-                         "overrides": about.get("overrides"), **about.get("swept", {})})
-        columns = ["run", "status", "why", "seed", "curiosity", "key", "wall_s", "cpu_s", "cycles", "error",
-                   "overrides"]
-        return pd.DataFrame(rows, columns=columns if not rows else None)
+            asked = self._asked.get(name)
+            condition = self._conditions.get(asked.condition) if asked else None
+            settings = condition.settings if condition else {}
+            rows.append({"study": self.name, "run": name, "condition": condition.name if condition else None,
+                         "status": status, "why": why, "seed": asked.seed if asked else about.get("seed"),
+                         "curiosity": settings.get("curiosity", about.get("curiosity")),
+                         "key": asked.key if asked else about.get("key"),
+                         **{key: about.get(key) for key in ("wall_s", "cpu_s", "cycles", "error", "overrides")},
+                         **{key: value for key, value in settings.items() if key != "curiosity"}})
+        return pd.DataFrame(rows, columns=None if rows else RUNS)
 
     @cached_property
     def swept(self) -> list[str]:
-        """Names of the settings that differ on purpose between runs (but for seed and curiosity)."""
-        names = {name for _, _, about in self._states.values() for name in about.get("swept", {})}
-        return sorted(names)
+        """Names of the settings that set conditions apart (but for seed and curiosity)."""
+        return [name for name in self.file.axes if name != "curiosity"]
 
     @property
     def complete(self) -> list[str]:
         """Names of the complete runs."""
         return [name for name, (status, _, _) in self._states.items()
-                if status == "complete" and name not in self._broken]
+                if status == "complete" and name in self._asked and name not in self._broken]
 
-    def about(self, run: str) -> dict:
+    def named(self) -> dict[str, str]:
+        """What the condition of each complete run is called: run -> name, in the order in which they were asked for."""
+        order = {condition.name: i for i, condition in enumerate(self.file.conditions)}
+        complete = set(self.complete)
+        asked = sorted((run for run in self.file.runs if run.name in complete),
+                       key=lambda run: (order[run.condition], run.seed))
+        return {run.name: run.condition for run in asked}
+
+    def condition(self, run: str) -> Condition:
+        """The condition of a run that was asked for."""
+        return self._conditions[self._asked[run].condition]
+
+    def seed(self, run: str) -> int:
+        """The seed of a run that was asked for."""
+        return self._asked[run].seed
+
+    def about(self, run: str) -> dict[str, Any]:
         """run.json of a run; empty if it has none."""
         return self._states[run][2]
 
-    def config(self, run: str) -> dict | None:
-        """The resolved config of a run; None if it is missing or unreadable."""
-        if run not in self._configs:
-            import yaml
-            try:
-                text = (self.path / run / "config.yaml").read_text()
-                content = yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-            except (OSError, ValueError, yaml.YAMLError):
-                content = None
-            self._configs[run] = content if isinstance(content, dict) else None
-        return self._configs[run]
+    def config(self, run: str) -> dict[str, Any]:
+        """The resolved config of a run that was asked for, but for its cosmetic settings."""
+        return {**self.condition(run).config, "seed": self.seed(run)}
 
     def plain(self, table: str) -> pd.DataFrame:
         """A table without the columns of swept settings, and of ``cycles`` only each run's last recorded episode: what
@@ -137,7 +161,6 @@ class Study:
     def _table(self, table: str, cut: Callable[[pa.Table], pa.Table] | None = None) -> pd.DataFrame:
         """Rows of all complete runs, of each what ``cut`` leaves. Arrow tables are joined before pandas sees them."""
         import pandas as pd
-        import pyarrow as pa
         import pyarrow.parquet as pq
         tables = []
         for name in self.complete:
@@ -147,22 +170,20 @@ class Study:
                 self._broken[name] = f"{table}.parquet: {cause}"
                 self.__dict__.pop("runs", None)
                 continue
-            found = found if cut is None else cut(found)
-            if cut is None and "episode" in found.column_names and table != "cycles":
-                for setting in self.swept:
-                    if setting not in found.column_names:
-                        value = pa.array([self._setting(name, setting)] * len(found))
-                        found = found.append_column(setting, value)
-            tables.append(found)
+            tables.append(self._marked(name, found, table) if cut is None else cut(found))
         tables = [found for found in tables if len(found)] or tables[:1]
         return _join(tables) if tables else pd.DataFrame()
 
-    def _setting(self, run: str, setting: str):
-        """A setting of a run that was not swept when it ran, from its config."""
-        node = self.config(run)
-        for part in setting.split("."):
-            node = node.get(part) if isinstance(node, dict) else None
-        return node.get("name") if isinstance(node, dict) else node
+    def _marked(self, run: str, found: pa.Table, table: str) -> pa.Table:
+        """A run's table with the study, the condition, and the settings that set it apart."""
+        condition = self.condition(run)
+        for place, (name, value) in enumerate((("study", self.name), ("condition", condition.name))):
+            found = found.add_column(place, name, _repeated(value, len(found)))
+        if "episode" in found.column_names and table != "cycles":
+            for name in self.swept:
+                if name not in found.column_names:
+                    found = found.append_column(name, _repeated(condition.settings.get(name), len(found)))
+        return found
 
     @cached_property
     def episodes(self) -> pd.DataFrame:
@@ -185,6 +206,30 @@ class Study:
         return self._table("coverage")
 
 
+class Studies:
+    """Several studies as one: every frame holds the rows of all of them, told apart by its column ``study``."""
+
+    def __init__(self, studies: list[Study]):
+        self.studies = studies
+
+    def __repr__(self) -> str:
+        return f"Studies({self.studies})"
+
+    def __getattr__(self, name: str) -> pd.DataFrame:
+        if name not in (*TABLES, "runs"):
+            raise AttributeError(f"several studies have {', '.join(TABLES)} and runs, no {name}; ask one of .studies")
+        import pandas as pd
+        return pd.concat([getattr(study, name) for study in self.studies], ignore_index=True)
+
+
+def _repeated(value: Any, rows: int) -> pa.Array:
+    """A column of one value, stored once."""
+    import pyarrow as pa
+    if isinstance(value, str):
+        return pa.DictionaryArray.from_arrays(pa.array([0] * rows, pa.int32()), [value])
+    return pa.array([value] * rows)
+
+
 def _last_episode(cycles: pa.Table) -> pa.Table:
     """The rows at the end that belong to the last row's phase and episode."""
     import numpy as np
@@ -203,7 +248,3 @@ def _join(tables: list[pa.Table]) -> pd.DataFrame:
     except (pa.ArrowInvalid, pa.ArrowTypeError):
         import pandas as pd
         return pd.concat([found.to_pandas() for found in tables], ignore_index=True)
-
-
-def _looks_like_run(folder: Path) -> bool:
-    return any((folder / name).exists() for name in ("run.json", "config.yaml", *(f"{t}.parquet" for t in TABLES)))

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from attnlab.errors import ConfigError
-from attnlab.results.load import state_of
+from attnlab.results.states import state_of
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -46,6 +48,14 @@ class RunPlan:
         self.validation_spec = self._validation_spec()
         self.found: dict = {}  # settings of the learner found offline, see Learner.prepare
         self._try_parts()
+
+    def with_seed(self, seed: int) -> RunPlan:
+        """The same run with another seed. What hangs on the seed is checked again: its range and its world."""
+        plan = copy.copy(self)
+        plan.config = {**self.config, "seed": seed}
+        plan.settings = dataclasses.replace(self.settings, seed=build(RunSettings, {"seed": seed}, "").seed)
+        plan.layout, plan.found = plan._layout(), {}
+        return plan
 
     def prepare(self, folder: Path | None) -> None:
         """What a learner does before the run; it may keep files in ``folder``."""

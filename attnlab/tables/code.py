@@ -6,6 +6,7 @@ import hashlib
 import platform
 import subprocess
 from functools import cache
+from typing import Any
 
 from attnlab import __version__
 from attnlab.paths import PACKAGE
@@ -33,6 +34,15 @@ def commit() -> str:
     except (OSError, subprocess.SubprocessError):
         return ""
     return shown if top == str(PACKAGE.parent) else ""
+
+
+@cache
+def code() -> dict[str, Any]:
+    """The code of this process: ``version``, ``commit``, ``dirty`` (were files changed since?), ``hash`` of the files
+    that numbers come from."""
+    shown = commit()
+    return {"version": __version__, "commit": shown.removesuffix("-dirty"), "dirty": shown.endswith("-dirty"),
+            "hash": package_hash()}
 
 
 @cache

@@ -77,7 +77,7 @@ def test_an_effect_that_was_put_in_is_found(tmp_path):
               for s in conditions.strata}
     found = multiverse.analyse(conditions, judged)
     assert len(found.names) == 12
-    assert set(found.levels) == {"crash", "need_k", "energy_max + energy_start"}
+    assert set(found.levels) == {"crash", "need_k", "energy_start + energy_max"}
     effects = {(e.factor, e.level): e for e in found.effects if e.claim == "C18"}
     moved = effects["crash", "safety_distance"]
     assert moved.difference == 1.0 and moved.clear and moved.default == "contact"

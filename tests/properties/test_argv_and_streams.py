@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from attnlab.cli.argv import normalise
 from attnlab.errors import ConfigError
-from attnlab.launch.ranges import compact, seeds
 from attnlab.streams import stream
+from attnlab.tables.ranges import compact, seeds
 
 
 def test_the_papers_command_is_reordered_for_hydra():

@@ -80,7 +80,7 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
             node = node.setdefault(part, {})
         node[parts[-1]] = value
     (folder / "config.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
-    about = {"status": "complete", "key": f"{seed}{curiosity}", "seed": seed, "curiosity": curiosity, "swept": swept,
+    about = {"status": "complete", "key": name, "seed": seed, "curiosity": curiosity, "swept": swept,
              "overrides": [f"curiosity={curiosity}", f"seed={seed}", *(f"{k}={v}" for k, v in swept.items())],
              "schema": SCHEMA_VERSION, "versions": {"attnlab": "0.1.0"}, "wall_s": 1.0, "cpu_s": 1.0, "cycles": 9,
              "error": None}

@@ -49,7 +49,7 @@ def test_everything_is_there(built):
         assert "<svg" in (built / "figures" / f"{figure.key}.svg").read_text()[:600]
     assert all(f'id="claim-C{i}"' in page for i in range(1, 28))
     assert "Table 5, side by side" in page and "4525 ± 247" in page and "102" not in page[:50]
-    assert "python -m attnlab -m curiosity=litman,none seed=0-2" in page
+    assert "python -m attnlab curiosity=litman seed=0-2\npython -m attnlab curiosity=none seed=0-2" in page
 
 
 def test_needs_nothing_from_outside(built):
@@ -155,13 +155,14 @@ def test_two_studies_mixed(tmp_path):
     for curiosity in ("litman", "none"):
         write_run(study, curiosity, 0, train=10, name=f"other-{curiosity}")
     page = words(study)
-    assert "runs of different studies are mixed here: train_episodes is 10 in 2 runs and 20 in 4 runs" in page
+    assert "conditions of different studies are mixed here: train_episodes is 10 and 20" in page
 
 
 def test_a_run_copied_twice(tmp_path):
     study = write_study(tmp_path / "twice", seeds=2)
     shutil.copytree(study / "none-seed0", study / "zz-copy")
-    assert "run zz-copy is left out: seed 0" in words(study)
+    assert "not asked for: zz-copy (a copy of none-seed0)" in words(study)
+    assert set(load(study).episodes["run"]) == {"none-seed0", "none-seed1", "litman-seed0", "litman-seed1"}
 
 
 def test_empty_study(tmp_path):
@@ -233,4 +234,4 @@ def test_variants_crossed_with_another_sweep_stay_apart(tmp_path):
             swept = {"variant": variant, "learner": learner, **dict.fromkeys("abcd", variant)}
             write_study(study, 1, ("litman",), swept=swept)
     conditions = Conditions(load(study))
-    assert len(set(conditions.named().values())) == 4
+    assert len(set(conditions.study.named().values())) == 4

@@ -10,7 +10,7 @@ from typing import Any
 
 def dig(node: Any, name: str) -> Any:
     """A setting by its dotted name; None if there is none."""
-    for part in name.split("."):
+    for part in name.split(".") if name else ():
         node = node.get(part) if isinstance(node, Mapping) else None
     return node
 

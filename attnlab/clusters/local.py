@@ -4,60 +4,75 @@ from __future__ import annotations
 
 import contextlib
 import multiprocessing
-import os
 import signal
 import time
 from collections.abc import Sequence
-from multiprocessing.connection import wait
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
 
+from attnlab.clusters.base import Cluster, cores
+from attnlab.launch.jobs import Job
 from attnlab.launch.progress import Display
-from attnlab.launch.study import Job
 from attnlab.launch.worker import work
+from attnlab.registry import register
+from attnlab.settings import setting
 from attnlab.tables.files import read_json, write_json
 
 
+@dataclass
 class _Running:
-    def __init__(self, job: Job, process, pipe):
-        self.job, self.process, self.pipe = job, process, pipe
-        self.episodes = self.cycles = 0
+    """A run at work, and how far it said it is."""
+    job: Job
+    process: BaseProcess
+    pipe: Connection
+    episodes: int = 0
+    cycles: int = 0
 
 
-def cores() -> int:
-    """Cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+@register("cluster", "local")
+class Local(Cluster):
+    """All cores of this machine, one process a run."""
+
+    @dataclass
+    class Params:
+        jobs: int | None = setting(None, "runs side by side; all cores if left out", low=1, high=1024)
+
+    def at_once(self, jobs: Sequence[Job]) -> int:
+        return min(self.params.jobs or cores(), len(jobs))
+
+    def run(self, jobs: Sequence[Job], display: Display) -> None:
+        """Ctrl-C stops the running ones, marks them failed (interrupted), and is raised again."""
+        context, waiting, running = _context(jobs), list(jobs), []
+        at_once = self.at_once(jobs)
+        try:
+            while waiting or running:
+                while waiting and len(running) < at_once:
+                    running.append(_start(context, waiting.pop(0)))
+                ready = wait([r.pipe for r in running] + [r.process.sentinel for r in running], timeout=0.5)
+                for run in list(running):
+                    if run.pipe in ready:
+                        _hear(run, display)
+                    if not run.process.is_alive():
+                        running.remove(run)
+                        _finish(run, display)
+                display.tick()
+        except BaseException:
+            for run in running:
+                run.process.kill()
+            for run in running:
+                run.process.join()
+                _mark_failed(run.job, "interrupted before it was complete")
+            raise
 
 
-def run_jobs(jobs: Sequence[Job], at_once: int | None, display: Display) -> None:
-    """Run all jobs, ``at_once`` at a time (all cores if None); what happened is in their folders.
-
-    Ctrl-C stops the running ones, marks them failed (interrupted), and is raised again.
-    """
-    context = _context(jobs)
-    waiting, running = list(jobs), []
-    at_once = min(at_once or cores(), len(waiting)) if waiting else 0
-    try:
-        while waiting or running:
-            while waiting and len(running) < at_once:
-                running.append(_start(context, waiting.pop(0)))
-            ready = wait([r.pipe for r in running] + [r.process.sentinel for r in running], timeout=0.5)
-            for run in list(running):
-                if run.pipe in ready:
-                    with contextlib.suppress(EOFError, OSError):
-                        while run.pipe.poll():
-                            episodes, cycles = run.pipe.recv()
-                            display.advance(episodes - run.episodes, cycles - run.cycles)
-                            run.episodes, run.cycles = episodes, cycles
-                if not run.process.is_alive():
-                    running.remove(run)
-                    _finish(run, display)
-            display.tick()
-    except BaseException:
-        for run in running:
-            run.process.kill()
-        for run in running:
-            run.process.join()
-            _mark_failed(run.job, "interrupted before it was complete")
-        raise
+def _hear(run: _Running, display: Display) -> None:
+    """How far a run is."""
+    with contextlib.suppress(EOFError, OSError):
+        while run.pipe.poll():
+            episodes, cycles = run.pipe.recv()
+            display.advance(episodes - run.episodes, cycles - run.cycles)
+            run.episodes, run.cycles = episodes, cycles
 
 
 def _context(jobs: Sequence[Job]):
@@ -73,7 +88,7 @@ def _context(jobs: Sequence[Job]):
 
 def _start(context, job: Job) -> _Running:
     receive, send = context.Pipe(duplex=False)
-    process = context.Process(target=work, args=(job.config, str(job.folder), job.info, send), daemon=True)
+    process = context.Process(target=work, args=(dict(job.config), str(job.folder), job.info, send), daemon=True)
     process.start()
     send.close()
     return _Running(job, process, receive)

@@ -1,0 +1,1 @@
+"""Clusters: where the runs of a study are done."""

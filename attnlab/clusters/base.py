@@ -1,0 +1,33 @@
+"""What a cluster is."""
+
+from __future__ import annotations
+
+import os
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import Any
+
+from attnlab.launch.jobs import Job
+from attnlab.launch.progress import Display
+
+
+def cores() -> int:
+    """Cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class Cluster(ABC):
+    """Does the runs of a study, somewhere. It changes no number: it is in no run's key."""
+    name: str
+
+    def __init__(self, params: Any, context: None = None):
+        self.params = params
+
+    def at_once(self, jobs: Sequence[Job]) -> int:
+        """How many of these runs are done side by side."""
+        return 1
+
+    @abstractmethod
+    def run(self, jobs: Sequence[Job], display: Display) -> None:
+        """Do all jobs; what became of each is in its folder. ``display`` is told of episodes and cycles as they come
+        (``advance``), of every run that ended (``run_done``), and a few times a second (``tick``)."""

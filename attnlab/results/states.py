@@ -1,0 +1,64 @@
+"""What became of a run: told from its folder, cheaply."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from attnlab.tables.files import read_json
+from attnlab.tables.schema import SCHEMA_VERSION, TABLES
+
+State = tuple[str, str, dict[str, Any]]  # (status, why, run.json)
+
+
+def state_of(folder: Path) -> State:
+    """(status, why, run.json) of a run folder. ``damaged``: it says complete, but a table is missing or broken."""
+    about = read_json(folder / "run.json")
+    if about is None:
+        missing = "no run.json" if not (folder / "run.json").exists() else "run.json is not readable"
+        return "incomplete", f"{missing}; the run was interrupted or is not one", {}
+    status = str(about.get("status"))
+    if status == "complete":
+        if about.get("schema") != SCHEMA_VERSION:
+            return "damaged", (f"tables of schema {about.get('schema')}, this version reads schema {SCHEMA_VERSION}; "
+                               "run it again with fresh=true"), about
+        for table in TABLES:
+            problem = _check_parquet(folder / f"{table}.parquet")
+            if problem:
+                return "damaged", problem, about
+    error = str(about.get("error") or "").strip().splitlines()
+    return status, error[-1] if error else "", about
+
+
+def _check_parquet(path: Path) -> str:
+    """Empty if the file has a Parquet head and tail, else what is wrong. Cheap: reads 8 bytes."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(4)
+            file.seek(-4, 2)
+            tail = file.read(4)
+    except OSError:
+        return f"{path.name} is missing or cut off"
+    return "" if head == tail == b"PAR1" else f"{path.name} is cut off or no Parquet file"
+
+
+def looks_like_run(folder: Path) -> bool:
+    """Does this folder hold anything that a run writes?"""
+    return any((folder / name).exists() for name in ("run.json", "config.yaml", *(f"{t}.parquet" for t in TABLES)))
+
+
+def states_in(study: Path) -> dict[str, State]:
+    """The state of every run folder of a study, by name."""
+    return {folder.name: state_of(folder) for folder in sorted(study.iterdir())
+            if folder.is_dir() and looks_like_run(folder)}
+
+
+def read_config(folder: Path) -> dict[str, Any] | None:
+    """The resolved config of a run; None if it is missing or unreadable."""
+    import yaml
+    try:
+        text = (folder / "config.yaml").read_text()
+        content = yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except (OSError, ValueError, yaml.YAMLError):
+        return None
+    return content if isinstance(content, dict) else None
