@@ -64,6 +64,7 @@ class RunSettings:
 
 
 COSMETIC = cosmetics(RunSettings)
+_layouts: dict[str, Layout] = {}
 
 
 def run_key(config: Mapping[str, Any]) -> str:
@@ -81,9 +82,18 @@ def reading_of(settings: RunSettings) -> Reading:
 
 
 def layout_of(world: Mapping[str, Any], seed: int) -> Layout:
-    """The world of a run, from its config node and the seed. Raises ConfigError that names the world as it is typed."""
+    """The world of a run, from its config node and the seed; built once a process, for many runs share it. Raises
+    ConfigError that names the world as it is typed."""
+    key = json.dumps([world, seed], sort_keys=True, default=str)
+    if key not in _layouts:
+        _layouts[key] = _built(world, seed)
+    return _layouts[key]
+
+
+def _built(world: Mapping[str, Any], seed: int) -> Layout:
     try:
-        return registry.make("world", world, None).build(seed)
+        layout: Layout = registry.make("world", world, None).build(seed)
+        return layout
     except ConfigError as error:
         if error.setting.startswith("world"):
             raise

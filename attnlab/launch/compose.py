@@ -9,6 +9,7 @@ from __future__ import annotations
 import pickle
 import re
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from hydra.core.override_parser.overrides_parser import OverridesParser
@@ -28,6 +29,7 @@ class Composer:
         self.parser = OverridesParser.create(config_loader=loader)
         self._parsed: dict[str, Override] = {}
         self._composed: dict[tuple[str, ...], bytes] = {}
+        self._group = cache(loader.repository.group_exists)
 
     def parsed(self, override: str) -> Override:
         """One override as Hydra reads it."""
@@ -52,7 +54,7 @@ class Composer:
         key = override.key_or_group
         value = override.value()
         if override.is_add() or override.is_force_add() or override.is_delete() or override.package is not None \
-                or self.loader.repository.group_exists(key) or isinstance(value, Mapping) or "$" in str(value):
+                or self._group(key) or isinstance(value, Mapping) or "$" in str(value):
             return None
         return key, value
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from html import escape
+from typing import Any
 
 from attnlab import __version__
 from attnlab.claims.files import Claims
@@ -39,6 +41,10 @@ def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
     versions = {tuple(sorted((study.about(run).get("versions") or {}).items())) for run in conditions.configs}
     if len(versions) > 1:
         found.append(f"the runs were made by {len(versions)} different sets of versions (see Provenance)")
+    codes = Counter(_code(study.about(run)) for run in conditions.configs)
+    if len(codes) > 1:
+        made = "; ".join(f"{count} by {of}" for of, count in codes.most_common())
+        found.append(f"the runs were made by {len(codes)} versions of the code ({made}): fresh=true makes them anew")
     files: dict[str, set[str]] = {}
     for run in conditions.configs:
         for file, sha in (study.about(run).get("plugins") or {}).items():
@@ -46,6 +52,15 @@ def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
     found += [f"{file} was changed between runs: they were made by {len(shas)} versions of it"
               for file, shas in sorted(files.items()) if len(shas) > 1]
     return found
+
+
+def _code(about: Mapping[str, Any]) -> str:
+    """Which code made a run, in words."""
+    code = about.get("code") or {}
+    if not code.get("hash"):
+        return "code that did not say which it is"
+    commit = f", commit {code['commit']}{' with changes' * bool(code.get('dirty'))}" if code.get("commit") else ""
+    return f"attnlab {code.get('version')}, code {code['hash']}{commit}"
 
 
 def _small(conditions: Conditions) -> list[str]:

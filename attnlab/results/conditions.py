@@ -6,7 +6,6 @@ conditions apart. Everything that goes beyond one run (measures, claims, figures
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -65,7 +64,6 @@ class Conditions:
                        for c in study.file.conditions}
         self._by_key = self._sort_runs()
         self._indices: dict[str, dict[str, Any]] = {}
-        self._layouts: dict[str, Layout | None] = {}
 
     def _sort_runs(self) -> dict[tuple[str, ...], dict[int, str]]:
         """(curiosity, settings) -> seed -> run, in the order in which conditions were asked for."""
@@ -158,15 +156,11 @@ class Conditions:
 
     def layout(self, run: str) -> Layout | None:
         """The world of a run, built again from its config and seed; None if that world's plugin is not here."""
-        node, seed = self.configs[run].get("world") or {}, self.configs[run].get("seed", 0)
-        key = json.dumps([node, seed if node.get("part") != "layout" else 0], sort_keys=True, default=str)
-        if key not in self._layouts:
-            load_all()
-            try:
-                self._layouts[key] = layout_of(node, seed)
-            except (ConfigError, KeyError):
-                self._layouts[key] = None
-        return self._layouts[key]
+        load_all()
+        try:
+            return layout_of(self.configs[run].get("world") or {}, self.configs[run].get("seed", 0))
+        except ConfigError:
+            return None
 
     def frame(self, table: str) -> pd.DataFrame:
         """A whole table; of ``cycles`` only the last recorded episode of each run is read."""

@@ -39,4 +39,5 @@ def recovered(path: Path, states: Mapping[str, State] | None = None) -> StudyFil
 
 def _is_home(name: str, state: State) -> bool:
     """Is this the folder that the run was made in, and no copy of it?"""
-    return name.rpartition("-")[2] == state[2].get("key")
+    about = state[2]
+    return name == about["run"] if "run" in about else name.rpartition("-")[2] == about.get("key")

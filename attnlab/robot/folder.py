@@ -30,7 +30,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     from omegaconf import OmegaConf
     folder.mkdir(parents=True, exist_ok=True)
     started = time.perf_counter()
-    about = {"status": "running", "key": info["key"], "seed": config["seed"], "overrides": list(info["overrides"]),
+    about = {"status": "running", "run": info["run"], "key": info["key"], "seed": config["seed"],
+             "overrides": list(info["overrides"]),
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
              "condition": info.get("condition"), "plugins": plugin_hashes(config),
              "versions": versions(), "code": info.get("code"), "claims": info.get("claims"),
