@@ -25,14 +25,14 @@ PYTHONS = ["3.11", "3.12", "3.13"]
 @nox.session(python=PYTHONS)
 def tests(session: nox.Session) -> None:
     """The default tests, minutes: nox -s tests-3.11 -- tests/equations -x."""
-    session.install("-e", ".[test]")
+    session.install("-e", ".[all]")
     session.run("python", "-m", "pytest", "-q", "-n", "2", *session.posargs)
 
 
 @nox.session(default=False)
 def long(session: nox.Session) -> None:
     """The long tests: soundness over thousands of episodes."""
-    session.install("-e", ".[test]")
+    session.install("-e", ".[all]")
     session.run("python", "-m", "pytest", "-q", "-m", "long", *session.posargs)
 
 
@@ -55,7 +55,7 @@ def types(session: nox.Session) -> None:
 @nox.session(default=False)
 def docs(session: nox.Session) -> None:
     """What the pages say: their commands, also the slow ones, columns, worlds, links."""
-    session.install("-e", ".[test]")
+    session.install("-e", ".[all]")
     session.run("python", "-m", "pytest", "-q", "-m", "", "tests/docs", *session.posargs)
 
 
@@ -69,7 +69,7 @@ def build(session: nox.Session) -> None:
     session.run("python", "-m", "build", "--outdir", str(dist))
     archive, wheel = next(dist.glob("*.tar.gz")), next(dist.glob("*.whl"))
 
-    session.install(f"attnlab[test] @ {wheel.as_uri()}")
+    session.install(f"attnlab[all] @ {wheel.as_uri()}")
     empty = folder / "empty"
     empty.mkdir(exist_ok=True)
     with session.chdir(empty):
