@@ -4,7 +4,7 @@
 # ///
 """Every check of the project, each in an environment of its own: ``nox -l`` lists them, ``nox -s types`` runs one.
 
-``nox --no-venv -s types`` uses the environment it is typed in, made by the README's install command.
+In the environment that the README's install command makes, ``pytest``, ``mypy`` and ``ruff check`` do the same at once.
 ``PIP_CONSTRAINT=constraints.txt nox`` takes the tested versions instead of the newest.
 """
 
