@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
+from typing import Any
 
 from attnlab.exploration.base import Exploration
 from attnlab.reading import Reading
@@ -43,7 +44,7 @@ class Learner(ABC):
         settings of this learner that were found offline, by default none."""
         return {}
 
-    def __init__(self, params, context: LearnerContext):
+    def __init__(self, params: Any, context: LearnerContext):
         self.params, self.context = params, context
         self.actions = len(context.periods)
         self.q = [[0.0] * self.actions for _ in range(context.states)]
