@@ -1,7 +1,7 @@
 """REST: a behaviour with a need of its own. Delete this file and nothing else changes; copy it to start your own."""
 from dataclasses import dataclass
 
-from attnlab.behaviours.base import Behaviour
+from attnlab.behaviours.base import Behaviour, BehaviourContext, Command, Senses
 from attnlab.equations import need_reward
 from attnlab.needs.base import Need
 from attnlab.registry import register
@@ -19,22 +19,22 @@ class Rest(Behaviour):
         recovery: float = setting(40.0, "fatigue that one activation at rest takes away", unit="UoE", above=0)
         deadly: float = setting(1500.0, "the robot drops dead at this fatigue", unit="UoE", above=0)
 
-    def __init__(self, params, context):
+    def __init__(self, params: Params, context: BehaviourContext):
         super().__init__(params, context)
         self.sigma_high = params.deadly
 
-    def needs(self):
+    def needs(self) -> list[Need]:
         return [Need("fatigue", start=300.0, per_activation=0.5, per_cycle=0.5, death_at=self.params.deadly)]
 
-    def percept(self, now):
+    def percept(self, now: Senses) -> float:
         return min(self.sigma_high, max(self.sigma_low, now.need("fatigue")))
 
-    def released(self, now, sigma):
+    def released(self, now: Senses, sigma: float) -> bool:
         return now.need("fatigue") >= self.params.threshold
 
-    def command(self, now, sigma):
+    def command(self, now: Senses, sigma: float) -> Command:
         now.body.consume("fatigue", self.params.recovery)
         return 0.0, 0.0
 
-    def reward(self, sigma, period):
+    def reward(self, sigma: float, period: float) -> float:
         return need_reward(period, sigma, self.sigma_high)

@@ -24,8 +24,8 @@ class Count(Curiosity):
         return [0] * self.bins
 
     def liking(self, memory: list[int], percept: int) -> float:
-        liking: float = (memory[percept] + 1) ** -0.5
-        return liking
+        bonus: float = (memory[percept] + 1) ** -0.5
+        return bonus
 
     def observe(self, memory: list[int], percept: int) -> None:
         memory[percept] += 1

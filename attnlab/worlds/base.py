@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from random import Random
+from typing import Any
 
 from attnlab.errors import ConfigError
 from attnlab.geometry import Solid, clearance
@@ -61,6 +63,18 @@ class Layout:
         x0, y0 = (self.start[0] + self.start[1]) / 2, (self.start[2] + self.start[3]) / 2
         x, y = min(self.free_points(), key=lambda p: ((p[0] - x0) ** 2 + (p[1] - y0) ** 2, p))
         return x, y, 0.0
+
+
+class World(ABC):
+    """Builds the layout of a run."""
+    name: str
+
+    def __init__(self, params: Any, context: None = None):
+        self.params = params
+
+    @abstractmethod
+    def build(self, seed: int) -> Layout:
+        """The checked layout of this seed, from the seed alone; ConfigError naming what cannot be."""
 
 
 def outer_walls(width_m: float, depth_m: float) -> list[Solid]:
