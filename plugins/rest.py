@@ -1,7 +1,7 @@
 """REST: a behaviour with a need of its own. Delete this file and nothing else changes; copy it to start your own."""
 from dataclasses import dataclass
 
-from attnlab.behaviours.base import Behaviour, BehaviourContext, Command, Senses
+from attnlab.behaviours.base import Behaviour
 from attnlab.equations import need_reward
 from attnlab.needs.base import Need
 from attnlab.registry import register
@@ -19,22 +19,22 @@ class Rest(Behaviour):
         recovery: float = setting(40.0, "fatigue that one activation at rest takes away", unit="UoE", above=0)
         deadly: float = setting(1500.0, "the robot drops dead at this fatigue", unit="UoE", above=0)
 
-    def __init__(self, params: Params, context: BehaviourContext):
+    def __init__(self, params, context):
         super().__init__(params, context)
         self.sigma_high = params.deadly
 
-    def needs(self) -> list[Need]:
+    def needs(self):
         return [Need("fatigue", start=300.0, per_activation=0.5, per_cycle=0.5, death_at=self.params.deadly)]
 
-    def percept(self, now: Senses) -> float:
+    def percept(self, now):
         return min(self.sigma_high, max(self.sigma_low, now.need("fatigue")))
 
-    def released(self, now: Senses, sigma: float) -> bool:
+    def released(self, now, sigma):
         return now.need("fatigue") >= self.params.threshold
 
-    def command(self, now: Senses, sigma: float) -> Command:
+    def command(self, now, sigma):
         now.body.consume("fatigue", self.params.recovery)
         return 0.0, 0.0
 
-    def reward(self, sigma: float, period: float) -> float:
+    def reward(self, sigma, period):
         return need_reward(period, sigma, self.sigma_high)
