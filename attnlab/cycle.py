@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from attnlab.attention import Attention
-from attnlab.behaviours.base import Senses
+from attnlab.behaviours.base import RobotSenses
 from attnlab.exploration.base import Exploration
 from attnlab.fusion.base import Fusion
 from attnlab.needs.base import Body
@@ -23,8 +23,8 @@ class Agent:
     penalty: Penalty
     max_cycles: int
 
-    def __post_init__(self):
-        self.now = Senses(self.simulator, self.body)
+    def __post_init__(self) -> None:
+        self.now = RobotSenses(self.simulator, self.body)
         for attention in self.attentions:
             attention.curiosity.attach(self.now)
 

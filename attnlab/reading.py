@@ -7,6 +7,7 @@ numbers decide (Table 5 needs about 1150 cycles an episode, for instance) the do
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from attnlab.errors import ConfigError
 from attnlab.settings import setting
@@ -38,28 +39,30 @@ class Reading:
     # percepts
     avoid_sigma_max_m: float = setting(1.0, "sigma_max of AVOID, from the robot's centre", unit="m", above=0)
     avoid_sigma_min_m: float = setting(0.4, "sigma_min of AVOID in Table 4", unit="m", low=0)
-    percept_domain: str = setting("zero_to_max", "domain cut into percepts: [0, max] as the text says, or [min, max]",
-                                  choices=("zero_to_max", "min_to_max"))
+    percept_domain: Literal["zero_to_max", "min_to_max"] = setting(
+        "zero_to_max", "domain cut into percepts: [0, max] as the text says, or [min, max]")
     percept_bins: int = setting(6, "equal intervals of the domain", low=1, high=100)
     # reward and learning
-    reward_period: str = setting("elapsed", "p of eqs 7-9: the period that elapsed, or the one newly chosen",
-                                 choices=("elapsed", "chosen"))
+    reward_period: Literal["elapsed", "chosen"] = setting(
+        "elapsed", "p of eqs 7-9: the period that elapsed, or the one newly chosen")
     penalty: float = setting(-1500.0, "reward when the robot dies", unit="UoR", high=0)
     penalised: str = setting("responsible", "who gets the penalty (a part of the group penalty): the one in charge "
                              "of what killed the robot (responsible), or all (literal eqs 7-9)")
-    penalty_mix: str = setting("outside", "is the penalty outside of eq 4, or inside (scaled by 1 - w)",
-                               choices=("outside", "inside"))
-    q_update: str = setting("decision", "gamma once a decision, or gamma^period (semi-Markov)",
-                            choices=("decision", "smdp"))
+    penalty_mix: Literal["outside", "inside"] = setting(
+        "outside", "is the penalty outside of eq 4, or inside (scaled by 1 - w)")
+    q_update: Literal["decision", "smdp"] = setting(
+        "decision", "gamma once a decision, or gamma^period (semi-Markov)")
     # curiosity
     novelty_window: int = setting(10, "NV_tot of eq 12, observations", unit="observations", low=1, high=100_000)
     novelty_persists: bool = setting(False, "keep the novelty window from one episode to the next")
     novelty_counts_current: bool = setting(False, "count the current percept among the NV_tot observations")
-    non_curious: str = setting("plain", "curiosity=none: no curiosity in the state (plain), or w = 0 with the states "
-                               "of the curious robot (same_states, an ablation)", choices=("plain", "same_states"))
+    non_curious: Literal["plain", "same_states"] = setting(
+        "plain", "curiosity=none: no curiosity in the state (plain), or w = 0 with the states of the curious robot "
+        "(same_states, an ablation)")
     # body and world
-    crash: str = setting("contact", "the footprint touches something, or also the front sonars' minimum (from the "
-                         "centre) falls below safety_distance_m", choices=("contact", "safety_distance"))
+    crash: Literal["contact", "safety_distance"] = setting(
+        "contact", "the footprint touches something, or also the front sonars' minimum (from the centre) falls below "
+        "safety_distance_m")
     safety_distance_m: float = setting(0.4, "safety distance from the robot's centre", unit="m", above=0, high=2)
     v_max_m_s: float = setting(0.4, "largest linear speed", unit="m/s", above=0, high=2)
     w_max_rad_s: float = setting(1.5, "largest angular speed", unit="rad/s", above=0, high=10)
@@ -69,16 +72,17 @@ class Reading:
     food_reach_m: float = setting(0.75, "a source is consumed when its blob looks nearer than this to the centre",
                                   unit="m", above=0)
     meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind", unit="mc", low=1)
-    food_supply: str = setting("endless", "sources are endless, empty after food_portions meals (depletion), or fill "
-                               "again after food_respawn_cycles (respawn)", choices=("endless", "depletion", "respawn"))
+    food_supply: Literal["endless", "depletion", "respawn"] = setting(
+        "endless", "sources are endless, empty after food_portions meals (depletion), or fill again after "
+        "food_respawn_cycles (respawn)")
     food_portions: int = setting(5, "meals in a source, unless endless", low=1)
     food_respawn_cycles: int = setting(300, "cycles until an empty source is full again", unit="mc", low=1)
-    start_pose: str = setting("random", "a random free pose each episode (from the seed), or the same one always",
-                              choices=("random", "fixed"))
-    validation_exploration: str = setting("greedy", "how actions are chosen in validation episodes",
-                                          choices=("greedy", "softmax"))
+    start_pose: Literal["random", "fixed"] = setting(
+        "random", "a random free pose each episode (from the seed), or the same one always")
+    validation_exploration: Literal["greedy", "softmax"] = setting(
+        "greedy", "how actions are chosen in validation episodes")
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.energy_well >= self.energy_max:
             raise ConfigError("energy_well", f"is {self.energy_well}, must be below energy_max ({self.energy_max})")
         if self.need_start >= self.need_max and self.need_death:

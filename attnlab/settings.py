@@ -6,30 +6,33 @@ lets ``+any.thing=1`` through, so everything passes here, for every run of a swe
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import math
 import types
 import typing
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from attnlab.errors import ConfigError, nearest
 
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+Settings = TypeVar("Settings", bound="DataclassInstance")
+
 
 def setting(default: Any, doc: str, *, unit: str = "", low: float | None = None, high: float | None = None,
-            above: float | None = None, choices: tuple | None = None, cosmetic: bool = False) -> Any:
+            above: float | None = None, choices: tuple[Any, ...] | None = None, cosmetic: bool = False) -> Any:
     """A dataclass field with its meaning, unit and range (``low``/``high`` inclusive, ``above`` exclusive).
     ``cosmetic``: it changes no number of a run."""
+    # choices: until every caller has a Literal
     meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "choices": choices,
             "cosmetic": cosmetic}
     if isinstance(default, (list, dict)) or dataclasses.is_dataclass(default):
-        return dataclasses.field(default_factory=lambda: _copy(default), metadata=meta)
+        return dataclasses.field(default_factory=lambda: copy.copy(default), metadata=meta)
     return dataclasses.field(default=default, metadata=meta)
-
-
-def _copy(value: Any) -> Any:
-    return dataclasses.replace(value) if dataclasses.is_dataclass(value) else type(value)(value)
 
 
 def cosmetics(cls: type) -> frozenset[str]:
@@ -37,12 +40,12 @@ def cosmetics(cls: type) -> frozenset[str]:
     return frozenset(field.name for field in dataclasses.fields(cls) if field.metadata.get("cosmetic"))
 
 
-def defaults_of(cls: type) -> dict:
+def defaults_of(cls: type) -> dict[str, Any]:
     """The dataclass's defaults as a plain mapping, as stored in the config."""
     return dataclasses.asdict(cls())
 
 
-def build(cls: type, node: Any, where: str) -> Any:
+def build(cls: type[Settings], node: Any, where: str) -> Settings:
     """An instance of dataclass ``cls`` from the mapping ``node``; raises :class:`ConfigError` naming ``where``."""
     if not isinstance(node, Mapping):
         raise ConfigError(where, f"expected settings by name, got {node!r}")
@@ -70,6 +73,15 @@ def _hints(cls: type) -> dict[str, Any]:
     return typing.get_type_hints(cls)
 
 
+def choices_of(hint: Any) -> tuple[Any, ...]:
+    """The values that a setting of this type may have if it names them (``Literal``, also within a union or a list),
+    else ()."""
+    args = typing.get_args(hint)
+    if typing.get_origin(hint) is Literal:
+        return args
+    return next(filter(None, map(choices_of, args)), ())
+
+
 def convert(value: Any, kind: Any, where: str) -> Any:
     """``value`` as type ``kind``, or a ConfigError. Whole floats (1e3) pass as whole numbers, 1 as 1.0."""
     origin, args = typing.get_origin(kind), typing.get_args(kind)
@@ -79,6 +91,11 @@ def convert(value: Any, kind: Any, where: str) -> Any:
         if value is None and type(None) in args:
             return None
         return convert(value, next(arg for arg in args if arg is not type(None)), where)
+    if origin is Literal:
+        named = convert(value, type(args[0]), where)
+        if named not in args:
+            raise ConfigError(where, f"'{named}' is not one of its values", nearest(named, map(str, args)))
+        return named
     if origin is list:
         if not isinstance(value, (list, tuple)):
             raise ConfigError(where, f"expected a list, got {value!r}", "Write it as [a,b]")
@@ -87,7 +104,7 @@ def convert(value: Any, kind: Any, where: str) -> Any:
         if not isinstance(value, Mapping):
             raise ConfigError(where, f"expected settings by name, got {value!r}")
         return dict(value)
-    if dataclasses.is_dataclass(kind):
+    if isinstance(kind, type) and dataclasses.is_dataclass(kind):
         return build(kind, value, where)
     if kind is bool and isinstance(value, bool):
         return value
@@ -107,9 +124,9 @@ def _whole(value: float) -> bool:
     return math.isfinite(value) and value == int(value)
 
 
-def _check_range(value: Any, meta: Mapping, where: str) -> None:
+def _check_range(value: Any, meta: Mapping[str, Any], where: str) -> None:
     for item in value if isinstance(value, list) else [value]:
-        choices = meta.get("choices")
+        choices = meta.get("choices")  # until every caller has a Literal
         if choices and item is not None and item not in choices:  # None passes where the type allows it
             raise ConfigError(where, f"'{item}' is not one of its values", nearest(item, map(str, choices)))
         if not isinstance(item, (int, float)) or isinstance(item, bool):

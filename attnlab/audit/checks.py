@@ -8,7 +8,7 @@ is named, else ``fits``.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from attnlab.audit.table import Cell, Table
@@ -28,13 +28,13 @@ class Finding(NamedTuple):
 
 def audit(table: Table) -> list[Finding]:
     """All findings on a table, for each condition, and for each candidate of N where N matters."""
-    found = []
+    found: list[Finding] = []
     for condition in table.conditions:
         for check in (_order, _range, _spread, _global_reward, _union, _well):
             found += check(table, condition)
         for n in table.cycles:
-            for check in (_longest_period, _safety_bound, _period_term, _energy_fall, _active):
-                found += check(table, condition, n)
+            for check_of_n in (_longest_period, _safety_bound, _period_term, _energy_fall, _active):
+                found += check_of_n(table, condition, n)
     for n in table.cycles:
         found += _energy_balance(table, n)
     return found
@@ -103,7 +103,9 @@ def _union(table: Table, condition: str) -> Iterator[Finding]:
 def _well(table: Table, condition: str) -> Iterator[Finding]:
     """'Always above E_well' needs the smallest energy above it, for the conditions it is said of."""
     cell = table.get("energy_min", condition) if condition in table.above_well else None
-    for well, where in table.settings.energy_well.items() if cell else ():
+    if cell is None:
+        return
+    for well, where in table.settings.energy_well.items():
         yield Finding("always above E_well", condition, "energy_min", None,
                       f"{cell.mean:g} >= E_well = {well:g} ({where})", _judge(float(well) - cell.mean, cell.rounding))
 
@@ -199,9 +201,10 @@ def _energy_balance(table: Table, n: int) -> Iterator[Finding]:
     """
     s, starts = table.settings, {}
     for condition in table.conditions:
-        cells = [table.get(name, condition) for name in ("energy_mean", "hunger_mean", "thirst_mean")]
+        means = [table.get(name, condition) for name in ("energy_mean", "hunger_mean", "thirst_mean")]
+        cells = [cell for cell in means if cell]
         parts = table.group("activations", condition)
-        if all(cells) and parts:
+        if len(cells) == len(means) and parts:
             total = sum(c.mean for c in parts.values())
             growth = (2 * s.k - s.e_nb) * total
             ends = sorted((0.0, growth))
@@ -219,6 +222,3 @@ def _energy_balance(table: Table, n: int) -> Iterator[Finding]:
             strained = abs(a[1] - b[1]) > 3 * math.hypot(a[3], b[3]) / math.sqrt(table.episodes)
             yield Finding("energy and needs", f"{one}, {two}", "energy_mean, hunger_mean, thirst_mean", n, text,
                           IMPOSSIBLE if apart > 0 else STRAINED if strained else FITS)
-
-
-Check = Callable[..., Iterator[Finding]]

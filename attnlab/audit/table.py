@@ -6,10 +6,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attnlab.errors import ConfigError, nearest
 from attnlab.settings import build, setting
+
+if TYPE_CHECKING:
+    from yaml import SafeLoader, ScalarNode
 
 DEFAULT = "dinocera2014_table5"
 QUANTITIES = ("energy_max", "energy_min", "energy_mean", "safety_max", "safety_min", "safety_mean", "hunger_mean",
@@ -33,19 +36,19 @@ class Settings:
     k: float = setting(1.0, "growth of each need an activation", unit="UoE", low=0)
     meal: float = setting(150.0, "what a meal or a drink gives", unit="UoE", low=0)
     need_max: float = setting(1500.0, "largest need", unit="UoE", above=0)
-    energy_well: dict = setting({}, "candidates for E_well: value -> where it is said")
+    energy_well: dict[float, str] = setting({}, "candidates for E_well: value -> where it is said")
 
 
 @dataclass
 class _File:
     title: str = setting("", "")
-    cycles: dict = setting({}, "candidates for the cycles of an episode: value -> where it is said")
+    cycles: dict[int, str] = setting({}, "candidates for the cycles of an episode: value -> where it is said")
     settings: Settings = setting(Settings(), "")
     conditions: list[str] = setting([], "names of the columns")
     extrinsic_only: list[str] = setting([], "conditions whose rewards hold no intrinsic part")
     above_well: list[str] = setting([], "conditions said to keep their energy above E_well")
     episodes: int = setting(100, "episodes that the means are over", low=1)
-    cells: dict = setting({}, "quantity -> condition -> [mean, sd]")
+    cells: dict[str, Any] = setting({}, "quantity -> condition -> [mean, sd]")
     undecided: list[Any] = setting([], "groups of cells that cannot be told apart")
     notes: list[str] = setting([], "")
 
@@ -141,7 +144,7 @@ def _cell(value: Any, where: str) -> Cell:
     return Cell(numbers[0], numbers[1] if len(numbers) == 2 else None, 0.5 * 10.0 ** -decimals)
 
 
-def _undecided(node: Any, cells: Mapping, where: str) -> tuple[str, tuple[str, ...]]:
+def _undecided(node: Any, cells: Mapping[str, Any], where: str) -> tuple[str, tuple[str, ...]]:
     if not isinstance(node, Mapping) or set(node) != {"condition", "cells"}:
         raise ConfigError(where, f"expected condition and cells, got {node!r}")
     for name in node["cells"]:
@@ -165,14 +168,14 @@ class _Printed(str):
     """A number as it was written, so that 1.00 keeps its two decimals."""
 
 
-def _loader() -> type:
+def _loader() -> type[SafeLoader]:
     """A safe YAML loader that keeps numbers as printed; made when needed, for this module is imported lightly."""
     import yaml
 
     class AsPrinted(yaml.SafeLoader):
         pass
 
-    def printed(loader, node):
+    def printed(loader: SafeLoader, node: ScalarNode) -> Any:
         text = loader.construct_scalar(node)
         try:
             float(text)

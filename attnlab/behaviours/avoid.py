@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from attnlab.behaviours.base import Behaviour, Command, Senses
+from attnlab.behaviours.base import Behaviour, BehaviourContext, Command, Senses
 from attnlab.equations import avoid_reward
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -31,7 +31,9 @@ class Avoid(Behaviour):
                                           "something nearer than this beyond reading.stop_distance_m", unit="m", low=0)
         weights: list[float] = setting([0.2, 0.5, 0.8, 1.0], "of the sonars at 90, 50, 30, 10 degrees", low=0)
 
-    def __init__(self, params: Params, context):
+    params: Params
+
+    def __init__(self, params: Params, context: BehaviourContext):
         super().__init__(params, context)
         r = self.reading
         self.sigma_high = r.avoid_sigma_max_m

@@ -5,18 +5,30 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from random import Random
+from typing import Any, Protocol
 
 from attnlab.errors import ConfigError, nearest
 from attnlab.needs.base import Body, Need
 from attnlab.reading import Reading
-from attnlab.simulators.base import Blob, Simulator
+from attnlab.simulators.base import Blob, Simulator, Surroundings
 from attnlab.simulators.robot import FRONT, centre_distances
 
 Command = tuple[float, float]  # (v m/s, w rad/s, left positive)
 
 
-class Senses:
-    """The world and the body as a behaviour may sense them in this machine cycle.
+class Senses(Surroundings, Protocol):
+    """What a behaviour may ask when its clock fires: the world around the robot, and its body."""
+    body: Body
+
+    def need(self, name: str) -> float:
+        """The value of a need, UoE."""
+
+    def hand(self) -> tuple[float, float]:
+        """(distance m, speed m/s) of a human hand, in a simulator that shows one."""
+
+
+class RobotSenses:
+    """The :class:`Senses` of a robot.
 
     A sensor is read when it is first asked for, and once a cycle: two behaviours that fire together share the image.
     """
@@ -32,21 +44,18 @@ class Senses:
         self._front_at = self._blobs_at = self._ring_at = -1
 
     def front_distances(self) -> list[float]:
-        """Echoes of the 8 frontal sonars as distances from the robot's centre, m, left to right."""
         if self._front_at != self.cycle:
             self._front = centre_distances(self.simulator.sonar(len(FRONT)))
             self._front_at = self.cycle
         return self._front
 
     def ring(self) -> list[float]:
-        """Echoes of all 16 sonars as distances from the robot's centre, m, in the order of the ring."""
         if self._ring_at != self.cycle:
             self._ring = centre_distances(self.simulator.sonar())
             self._ring_at = self.cycle
         return self._ring
 
     def blobs(self, kind: str) -> list[Blob]:
-        """The cubes of this kind in view, empty sources left out."""
         if self._blobs_at != self.cycle:
             self._blobs = self.simulator.blobs()
             self._blobs_at = self.cycle
@@ -54,16 +63,17 @@ class Senses:
         return [blob for blob in self._blobs if blob.kind == kind and larder.has(blob.solid, self.cycle)]
 
     def heading(self) -> float:
-        """Of the robot, from odometry, rad."""
         return self.simulator.pose()[2]
 
     def need(self, name: str) -> float:
-        """The value of a need, UoE."""
         body = self.body
         try:
             return body.values[body.index[name]]
         except KeyError:
             raise ConfigError("needs", f"nobody brings a need called '{name}'", nearest(name, body.index)) from None
+
+    def hand(self) -> tuple[float, float]:
+        return self.simulator.hand()
 
 
 @dataclass(frozen=True)
@@ -87,7 +97,7 @@ class Behaviour(ABC):
     feels: tuple[str, ...] = ()
     simulators: tuple[str, ...] = ()
 
-    def __init__(self, params, context: BehaviourContext):
+    def __init__(self, params: Any, context: BehaviourContext):
         self.params, self.reading, self.draw = params, context.reading, context.draw
 
     def needs(self) -> list[Need]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from attnlab.behaviours.base import Behaviour, Command, Senses
+from attnlab.behaviours.base import Behaviour, BehaviourContext, Command, Senses
 from attnlab.equations import need_reward
 from attnlab.settings import setting
 from attnlab.simulators.robot import RADIUS_M
@@ -28,10 +28,11 @@ class Forage(Behaviour):
     A meal: an activation that finds the source nearer than ``reading.food_reach_m``, once every
     ``reading.meal_interval_cycles``.
     """
+    params: ForageParams
     need: str
     source: str
 
-    def __init__(self, params: ForageParams, context):
+    def __init__(self, params: ForageParams, context: BehaviourContext):
         super().__init__(params, context)
         r = self.reading
         self.sigma_high = r.need_max

@@ -37,8 +37,10 @@ class Give(Behaviour):
         v_max_m_s: float = setting(1.0, "speed of the hand that has all attention", unit="m/s", above=0)
         d_max_m: float = setting(1.5, "distance of the hand from which on it has none", unit="m", above=0)
 
+    params: Params
+
     def percept(self, now: Senses) -> float:
-        distance, speed = now.simulator.hand()
+        distance, speed = now.hand()
         return salience(distance, speed, self.params.d_max_m, self.params.v_max_m_s)
 
     def command(self, now: Senses, sigma: float) -> Command | None:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import pi
 
-from attnlab.behaviours.base import Behaviour
+from attnlab.behaviours.base import Behaviour, Command, Senses
 from attnlab.equations import avoid_reward
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -21,17 +21,19 @@ class Wander(Behaviour):
         turn_rad_s: float = setting(0.6, "largest turn towards the direction", unit="rad/s", above=0)
         keep_cycles: int = setting(60, "cycles until another direction is drawn", unit="mc", low=1)
 
-    def start(self):
+    params: Params
+
+    def start(self) -> None:
         self._until, self._direction = -1, 0.0
 
-    def percept(self, now):
+    def percept(self, now: Senses) -> float:
         return min(self.sigma_high, *now.front_distances()[2:6])
 
-    def command(self, now, sigma):
+    def command(self, now: Senses, sigma: float) -> Command:
         if now.cycle >= self._until:
             self._until, self._direction = now.cycle + self.params.keep_cycles, self.draw.uniform(-pi, pi)
         error = (self._direction - now.heading() + pi) % (2 * pi) - pi
         return self.reading.v_max_m_s, min(self.params.turn_rad_s, max(-self.params.turn_rad_s, error))
 
-    def reward(self, sigma, period):
+    def reward(self, sigma: float, period: float) -> float:
         return avoid_reward(period, sigma, 0.0, self.sigma_high)

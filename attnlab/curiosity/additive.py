@@ -21,7 +21,9 @@ class Additive(Over):
         signal: Any = setting("litman", "model of wanting, liking and level: a name, or {name: ..., setting: ...}")
         bonus: float = setting(1.0, "weight of the liking", low=0)
 
-    def liking(self, memory, percept: int) -> float:
+    params: Params
+
+    def liking(self, memory: Any, percept: int) -> float:
         return self.signal.liking(memory, percept)
 
     def mix(self, extrinsic: float, liking: float, wanting: float) -> float:

@@ -5,13 +5,11 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from attnlab import equations
 from attnlab.reading import Reading
-
-if TYPE_CHECKING:
-    from attnlab.behaviours.base import Senses
+from attnlab.simulators.base import Surroundings
 
 NONE, LOW, LH, HH = "none", "low", "LH", "HH"
 
@@ -34,21 +32,21 @@ class Curiosity(ABC):
     ``liking`` and ``observe`` must be written: the rest is the paper's unless it is overridden. ``composed`` takes each
     from another model.
 
-    ``now`` is what the robot senses (:class:`attnlab.behaviours.base.Senses`) while a behaviour is active, for models
-    that need more than the percept; a sensor is read when it is asked for. ``persists``: does what is remembered
+    ``now`` is what the robot senses (:class:`~attnlab.simulators.base.Surroundings`) while a behaviour is active, for
+    models that need more than the percept; a sensor is read when it is asked for. ``persists``: does what is remembered
     outlive the episode?
     """
     name: str
     levels: tuple[str, ...] = (LOW, LH, HH)
     high_wanting: float = 0.0
     high_liking: float = 0.5
-    now: Senses | None = None
+    now: Surroundings
 
-    def __init__(self, params, context: CuriosityContext):
+    def __init__(self, params: Any, context: CuriosityContext):
         self.params, self.reading, self.bins, self.draw = params, context.reading, context.bins, context.draw
         self.persists = getattr(params, "persists", self.reading.novelty_persists)
 
-    def attach(self, now: Senses) -> None:
+    def attach(self, now: Surroundings) -> None:
         """The robot is built; this is what it senses from now on."""
         self.now = now
 

@@ -12,6 +12,7 @@ from attnlab.curiosity.base import Curiosity, CuriosityContext
 from attnlab.errors import ConfigError
 from attnlab.registry import register
 from attnlab.settings import setting
+from attnlab.simulators.base import Surroundings
 
 _DEEPEST = 5  # a model over a model over a model ...
 
@@ -25,27 +26,28 @@ def component(node: Any, context: CuriosityContext, where: str) -> Curiosity:
     if context.depth >= _DEEPEST:
         raise ConfigError(where, f"models are nested more than {_DEEPEST} deep", "Does one name itself?")
     inner = dataclasses.replace(context, depth=context.depth + 1)
-    return registry.make("curiosity", {**spec.nodes()[named["name"]], **named}, inner, where)
+    made: Curiosity = registry.make("curiosity", {**spec.nodes()[named["name"]], **named}, inner, where)
+    return made
 
 
 class Over(Curiosity):
     """A model over another one, ``params.signal``: the memory is that model's, and so is all it does not override."""
 
-    def __init__(self, params, context: CuriosityContext):
+    def __init__(self, params: Any, context: CuriosityContext):
         super().__init__(params, context)
         self.signal = component(params.signal, context, "curiosity.signal")
         self.levels, self.persists = self.signal.levels, self.signal.persists
 
-    def attach(self, now) -> None:
+    def attach(self, now: Surroundings) -> None:
         self.signal.attach(now)
 
-    def memory(self):
+    def memory(self) -> Any:
         return self.signal.memory()
 
-    def wanting(self, memory, energy: float) -> float:
+    def wanting(self, memory: Any, energy: float) -> float:
         return self.signal.wanting(memory, energy)
 
-    def observe(self, memory, percept: int) -> None:
+    def observe(self, memory: Any, percept: int) -> None:
         self.signal.observe(memory, percept)
 
     def level(self, wanting: float, liking: float) -> int:
@@ -71,6 +73,8 @@ class Composed(Curiosity):
         level: Any = setting("litman", "model that makes levels of the state from both")
         mix: Any = setting("litman", "model that makes the reward from both and the extrinsic one")
 
+    params: Params
+
     def __init__(self, params: Params, context: CuriosityContext):
         super().__init__(params, context)
         made: list[tuple[Any, Curiosity]] = []
@@ -81,10 +85,11 @@ class Composed(Curiosity):
         self._models = [model for _, model in made]
         self._wants, self._likes, levels, mixes = self._models
         self.levels, self.persists = levels.levels, self._likes.persists
-        self.level, self.mix = levels.level, mixes.mix  # called on every activation: no detour
+        self.level = levels.level  # type: ignore[method-assign]  # called on every activation: no detour
+        self.mix = mixes.mix  # type: ignore[method-assign]  # the same
         self._one = self._wants is self._likes
 
-    def attach(self, now) -> None:
+    def attach(self, now: Surroundings) -> None:
         for model in self._models:
             model.attach(now)
 
@@ -92,13 +97,13 @@ class Composed(Curiosity):
         wants = self._wants.memory()
         return wants, wants if self._one else self._likes.memory()
 
-    def wanting(self, memory, energy: float) -> float:
+    def wanting(self, memory: tuple[Any, Any], energy: float) -> float:
         return self._wants.wanting(memory[0], energy)
 
-    def liking(self, memory, percept: int) -> float:
+    def liking(self, memory: tuple[Any, Any], percept: int) -> float:
         return self._likes.liking(memory[1], percept)
 
-    def observe(self, memory, percept: int) -> None:
+    def observe(self, memory: tuple[Any, Any], percept: int) -> None:
         self._likes.observe(memory[1], percept)
         if not self._one:
             self._wants.observe(memory[0], percept)

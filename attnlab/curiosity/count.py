@@ -18,11 +18,14 @@ class Count(Curiosity):
     class Params:
         persists: bool = setting(True, "go on counting from one episode to the next")
 
+    params: Params
+
     def memory(self) -> list[int]:
         return [0] * self.bins
 
     def liking(self, memory: list[int], percept: int) -> float:
-        return (memory[percept] + 1) ** -0.5
+        bonus: float = (memory[percept] + 1) ** -0.5
+        return bonus
 
     def observe(self, memory: list[int], percept: int) -> None:
         memory[percept] += 1

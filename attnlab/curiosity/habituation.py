@@ -49,6 +49,8 @@ class Habituation(Curiosity):
         units: int = setting(100, "most units", low=1, high=10_000)
         persists: bool = setting(True, "keep the units from one episode to the next")
 
+    params: Params
+
     def memory(self) -> Units:
         return Units()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from attnlab.curiosity.formulas import entropy, squash
-from attnlab.curiosity.litman_gap import LitmanGap
+from attnlab.curiosity.litman_gap import LitmanGap, Memory
 from attnlab.registry import register
 from attnlab.settings import setting
 
@@ -22,7 +22,9 @@ class InformationGap(LitmanGap):
     class Params(LitmanGap.Params):
         scale: float = setting(0.05, "reduction of entropy that gives a liking of 0.63", unit="nats", above=0)
 
-    def reduction(self, memory, percept: int) -> float:
+    params: Params
+
+    def reduction(self, memory: Memory, percept: int) -> float:
         """H(a) - H(a'), nats; negative for a percept that makes the model less sure."""
         beliefs, window = memory
         after = beliefs.copy()
@@ -31,5 +33,5 @@ class InformationGap(LitmanGap):
             after[window[0]] -= 1.0
         return entropy(beliefs) - entropy(after)
 
-    def liking(self, memory, percept: int) -> float:
+    def liking(self, memory: Memory, percept: int) -> float:
         return squash(self.reduction(memory, percept), self.params.scale)

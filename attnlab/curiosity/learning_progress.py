@@ -9,6 +9,8 @@ from attnlab.curiosity.prediction_error import Transitions, unknowing
 from attnlab.registry import register
 from attnlab.settings import setting
 
+Memory = tuple[Transitions, list[list[float]]]  # the model, the errors of each cell
+
 
 @register("curiosity", "learning_progress")
 class LearningProgress(Curiosity):
@@ -28,7 +30,9 @@ class LearningProgress(Curiosity):
         gain: float = setting(4.0, "liking for each unit of progress", above=0)
         persists: bool = setting(True, "keep the model from one episode to the next")
 
-    def memory(self) -> tuple[Transitions, list[list[float]]]:
+    params: Params
+
+    def memory(self) -> Memory:
         return unknowing(self.bins), [[] for _ in range(self.bins)]
 
     def progress(self, errors: list[float]) -> float:
@@ -39,10 +43,10 @@ class LearningProgress(Curiosity):
         then = errors[-p.window - p.delay:len(errors) - p.delay]
         return (sum(then) - sum(errors[-p.window:])) / p.window
 
-    def liking(self, memory, percept: int) -> float:
+    def liking(self, memory: Memory, percept: int) -> float:
         return min(1.0, max(0.0, self.params.gain * self.progress(memory[1][percept])))
 
-    def observe(self, memory, percept: int) -> None:
+    def observe(self, memory: Memory, percept: int) -> None:
         model, cells = memory
         if model.last >= 0:
             errors = cells[model.last]

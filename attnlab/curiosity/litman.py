@@ -17,17 +17,17 @@ class Litman(Curiosity):
     one counts is ``reading.novelty_counts_current``. Draws nothing at random.
     """
 
-    def memory(self) -> deque:
+    def memory(self) -> deque[int]:
         return deque(maxlen=self.reading.novelty_window)
 
-    def wanting(self, memory: deque, energy: float) -> float:
+    def wanting(self, memory: deque[int], energy: float) -> float:
         return wanting(energy, self.reading.energy_well, self.reading.energy_max)
 
-    def liking(self, memory: deque, percept: int) -> float:
+    def liking(self, memory: deque[int], percept: int) -> float:
         r, visits = self.reading, memory.count(percept)
         if r.novelty_counts_current:  # it pushes the oldest out of a full window
             visits += 1 - (len(memory) == r.novelty_window and memory[0] == percept)
         return liking(visits, r.novelty_window)
 
-    def observe(self, memory: deque, percept: int) -> None:
+    def observe(self, memory: deque[int], percept: int) -> None:
         memory.append(percept)

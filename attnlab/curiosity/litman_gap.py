@@ -11,6 +11,8 @@ from attnlab.equations import liking
 from attnlab.registry import register
 from attnlab.settings import setting
 
+Memory = tuple[list[float], list[int]]  # a, the window
+
 
 @register("curiosity", "litman_gap")
 class LitmanGap(Curiosity):
@@ -30,21 +32,23 @@ class LitmanGap(Curiosity):
         high_wanting: float = setting(0.5, "wanting is high above this", low=0, high=1)
         persists: bool = setting(False, "keep the model from one episode to the next")
 
+    params: Params
+
     def __init__(self, params: Params, context: CuriosityContext):
         super().__init__(params, context)
         self.high_wanting = params.high_wanting
         self._most = log(context.bins) if context.bins > 1 else 1.0
 
-    def memory(self) -> tuple[list[float], list[int]]:
+    def memory(self) -> Memory:
         return [self.params.prior] * self.bins, []
 
-    def wanting(self, memory, energy: float) -> float:
+    def wanting(self, memory: Memory, energy: float) -> float:
         return min(1.0, entropy(memory[0]) / self._most)
 
-    def liking(self, memory, percept: int) -> float:
+    def liking(self, memory: Memory, percept: int) -> float:
         return liking(memory[1].count(percept), self.params.length)
 
-    def observe(self, memory, percept: int) -> None:
+    def observe(self, memory: Memory, percept: int) -> None:
         beliefs, window = memory
         window.append(percept)
         beliefs[percept] += 1.0

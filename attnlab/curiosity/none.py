@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import deque
+from typing import Any
+
 from attnlab.curiosity.base import HH, LH, LOW, NONE, CuriosityContext
 from attnlab.curiosity.litman import Litman
 from attnlab.registry import register
@@ -16,12 +19,12 @@ class NoCuriosity(Litman):
     it can be reported. Draws nothing at random.
     """
 
-    def __init__(self, params, context: CuriosityContext):
+    def __init__(self, params: Any, context: CuriosityContext):
         super().__init__(params, context)
         self._plain = self.reading.non_curious == "plain"
         self.levels = (NONE,) if self._plain else (LOW, LH, HH)
 
-    def wanting(self, memory, energy: float) -> float:
+    def wanting(self, memory: deque[int], energy: float) -> float:
         return 0.0 if self._plain else super().wanting(memory, energy)
 
     def level(self, wanting: float, liking: float) -> int:

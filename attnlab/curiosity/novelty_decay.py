@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from attnlab.curiosity.base import Curiosity
+from attnlab.curiosity.base import Curiosity, CuriosityContext
 from attnlab.registry import register
 from attnlab.settings import setting
 
@@ -19,7 +19,9 @@ class NoveltyDecay(Curiosity):
         half_life: float = setting(7.0, "after which a view counts half", unit="observations", above=0, high=1e6)
         persists: bool = setting(False, "keep the traces from one episode to the next")
 
-    def __init__(self, params: Params, context):
+    params: Params
+
+    def __init__(self, params: Params, context: CuriosityContext):
         super().__init__(params, context)
         self._keep = 0.5 ** (1.0 / params.half_life)
 

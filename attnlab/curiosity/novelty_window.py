@@ -21,11 +21,13 @@ class NoveltyWindow(Curiosity):
         length: int = setting(20, "percepts remembered", unit="observations", low=1, high=100_000)
         persists: bool = setting(False, "keep the window from one episode to the next")
 
-    def memory(self) -> deque:
+    params: Params
+
+    def memory(self) -> deque[int]:
         return deque(maxlen=self.params.length)
 
-    def liking(self, memory: deque, percept: int) -> float:
+    def liking(self, memory: deque[int], percept: int) -> float:
         return liking(memory.count(percept), self.params.length)
 
-    def observe(self, memory: deque, percept: int) -> None:
+    def observe(self, memory: deque[int], percept: int) -> None:
         memory.append(percept)

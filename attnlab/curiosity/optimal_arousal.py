@@ -24,7 +24,7 @@ class OptimalArousal(Over):
         steepness: float = setting(20.0, "k of both sigmoids", above=0, high=500)
         punishment: float = setting(1.0, "P: size of the punishment, that of the reward being 1", low=0)
 
-    def liking(self, memory, percept: int) -> float:
+    def liking(self, memory: Any, percept: int) -> float:
         p = self.params
         novelty = self.signal.liking(memory, percept)
         return max(0.0, wundt(novelty, p.reward_at, p.punish_at, p.steepness, p.punishment))

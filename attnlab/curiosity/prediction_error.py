@@ -46,6 +46,8 @@ class PredictionError(Curiosity):
         rate: float = setting(0.1, "learning rate of the model", above=0, high=1)
         persists: bool = setting(True, "keep the model from one episode to the next")
 
+    params: Params
+
     def memory(self) -> Transitions:
         return unknowing(self.bins)
 

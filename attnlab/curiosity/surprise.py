@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from attnlab.curiosity.base import Curiosity
 from attnlab.curiosity.formulas import dirichlet_surprise, squash
@@ -22,11 +23,13 @@ class Surprise(Curiosity):
 
     @dataclass
     class Params:
-        direction: str = setting("prior_post", "of the divergence", choices=("prior_post", "post_prior"))
+        direction: Literal["prior_post", "post_prior"] = setting("prior_post", "of the divergence")
         prior: float = setting(1.0, "pseudo-views of each percept", unit="observations", above=0)
         forgetting: float = setting(1.0, "what is kept of the belief at each view; 1 forgets nothing", above=0, high=1)
         scale: float = setting(0.1, "surprise that gives a liking of 0.63", unit="nats", above=0)
         persists: bool = setting(True, "keep the belief from one episode to the next")
+
+    params: Params
 
     def memory(self) -> list[float]:
         return [self.params.prior] * self.bins

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from attnlab.curiosity.base import Curiosity
 from attnlab.curiosity.formulas import gamma_divergence, squash
@@ -22,10 +23,12 @@ class PoissonSurprise(Curiosity):
 
     @dataclass
     class Params:
-        direction: str = setting("post_prior", "of the divergence", choices=("prior_post", "post_prior"))
+        direction: Literal["prior_post", "post_prior"] = setting("post_prior", "of the divergence")
         forgetting: float = setting(0.7, "zeta: what is kept of the belief at each view", above=0, high=0.999999)
         scale: float = setting(0.5, "surprise that gives a liking of 0.63", unit="nats", above=0)
         persists: bool = setting(True, "keep the belief from one episode to the next")
+
+    params: Params
 
     def memory(self) -> list[float]:
         rate = 1.0 / (1.0 - self.params.forgetting)
@@ -37,10 +40,11 @@ class PoissonSurprise(Curiosity):
 
     def surprise(self, memory: list[float], percept: int) -> float:
         """S in nats."""
-        after = self._after(memory, percept)
+        shape, rate = memory
+        new_shape, new_rate = self._after(memory, percept)
         if self.params.direction == "post_prior":
-            return gamma_divergence(*after, *memory)
-        return gamma_divergence(*memory, *after)
+            return gamma_divergence(new_shape, new_rate, shape, rate)
+        return gamma_divergence(shape, rate, new_shape, new_rate)
 
     def liking(self, memory: list[float], percept: int) -> float:
         return squash(self.surprise(memory, percept), self.params.scale)

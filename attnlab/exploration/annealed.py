@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from random import Random
-from typing import Any
+from typing import Any, Literal
 
 from attnlab import registry
 from attnlab.errors import ConfigError
@@ -27,9 +27,11 @@ class Annealed(Exploration):
         first: float = setting(5.0, "value in the first episode")
         last: float = setting(0.1, "value from episode `episodes` on")
         episodes: int = setting(300, "length of the schedule", unit="episodes", low=1)
-        shape: str = setting("exponential", "of the schedule", choices=("linear", "exponential"))
+        shape: Literal["linear", "exponential"] = setting("exponential", "of the schedule")
 
-    def __init__(self, params: Params, context=None):
+    params: Params
+
+    def __init__(self, params: Params, context: None = None):
         super().__init__(params, context)
         if params.shape == "exponential" and min(params.first, params.last) <= 0:
             raise ConfigError("exploration.shape", "exponential needs first and last above 0", "Or shape=linear")
@@ -46,7 +48,7 @@ class Annealed(Exploration):
 
     def _at(self, value: float) -> None:
         node = {**self._node, self.params.what: value}
-        self._inner = registry.make("exploration", node, None, "exploration.over")
+        self._inner: Exploration = registry.make("exploration", node, None, "exploration.over")
 
     def value(self, episode: int) -> float:
         """The setting in this episode."""
@@ -54,7 +56,8 @@ class Annealed(Exploration):
         share = min(1.0, episode / p.episodes)
         if p.shape == "linear":
             return p.first + (p.last - p.first) * share
-        return p.first * (p.last / p.first) ** share
+        factor: float = (p.last / p.first) ** share
+        return p.first * factor
 
     def start(self, episode: int) -> None:
         self._at(self.value(episode))

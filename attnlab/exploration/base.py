@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from random import Random
+from typing import Any
 
 
 class Exploration(ABC):
     """Chooses an action by its value."""
     name: str
 
-    def __init__(self, params, context=None):
+    def __init__(self, params: Any, context: None = None):
         self.params = params
 
     def start(self, episode: int) -> None:

@@ -19,6 +19,8 @@ class EpsilonGreedy(Exploration):
     class Params:
         epsilon: float = setting(0.1, "probability of a random action", low=0, high=1)
 
+    params: Params
+
     def choose(self, values: list[float], visits: list[int], draw: Random) -> int:
         if draw.random() < self.params.epsilon:
             return int(draw.random() * len(values))

@@ -19,6 +19,8 @@ class Softmax(Exploration):
     class Params:
         tau: float = setting(1.0, "temperature (Table 4)", above=0)
 
+    params: Params
+
     def choose(self, values: list[float], visits: list[int], draw: Random) -> int:
         left = draw.random()
         for action, probability in enumerate(softmax(values, self.params.tau)):

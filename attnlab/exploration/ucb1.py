@@ -21,7 +21,12 @@ class Ucb1(Exploration):
     class Params:
         c: float = setting(1.0, "weight of uncertainty, in the units of Q", low=0)
 
+    params: Params
+
     def choose(self, values: list[float], visits: list[int], draw: Random) -> int:
+        return self._best(values, visits)
+
+    def _best(self, values: list[float], visits: list[int]) -> int:
         if 0 in visits:
             return visits.index(0)
         spread = 2.0 * log(sum(visits))
@@ -29,5 +34,5 @@ class Ucb1(Exploration):
         return bounds.index(max(bounds))
 
     def probabilities(self, values: list[float], visits: list[int]) -> list[float]:
-        best = self.choose(values, visits, None)
+        best = self._best(values, visits)
         return [1.0 if i == best else 0.0 for i in range(len(values))]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import Any
 
 from attnlab.reading import Reading
 
@@ -11,7 +12,7 @@ class Fusion(ABC):
     """Combines the held commands; a robot without any stands still."""
     name: str
 
-    def __init__(self, params, reading: Reading):
+    def __init__(self, params: Any, reading: Reading):
         self.params, self.reading = params, reading
 
     @abstractmethod

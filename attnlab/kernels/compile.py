@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from typing import Any, TypeVar, cast
 
 from numba import njit
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 _told = False
 
 
-def compiled(signature: str) -> Callable:
+def inner(function: Function) -> Function:
+    """Decorator: a function that compiled ones call, compiled with them."""
+    return cast("Function", njit(error_model="numpy")(function))
+
+
+def compiled(signature: str) -> Callable[[Function], Function]:
     """Decorator: compile for this one signature, from the disk cache if it holds the function.
 
     One signature means that whole numbers are converted rather than compiled for anew. No fastmath and no threads: the
@@ -18,10 +26,10 @@ def compiled(signature: str) -> Callable:
     folder (beside the package, the user's, or NUMBA_CACHE_DIR) the function is compiled in each process, and one line
     on standard error says so.
     """
-    def wrap(function: Callable) -> Callable:
+    def wrap(function: Function) -> Function:
         global _told
         try:
-            return njit(signature, cache=True, error_model="numpy")(function)
+            return cast("Function", njit(signature, cache=True, error_model="numpy")(function))
         except (RuntimeError, OSError) as cause:
             if isinstance(cause, RuntimeError) and "cache" not in str(cause):
                 raise
@@ -29,5 +37,5 @@ def compiled(signature: str) -> Callable:
                 print("attnlab: numba's cache folder is not writable, so every process compiles the simulator anew "
                       "(some seconds); set NUMBA_CACHE_DIR to a folder that is", file=sys.stderr)
                 _told = True
-            return njit(signature, error_model="numpy")(function)
+            return cast("Function", njit(signature, error_model="numpy")(function))
     return wrap

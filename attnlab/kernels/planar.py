@@ -10,13 +10,16 @@ from __future__ import annotations
 from math import cos, floor, hypot, inf, pi, sin
 
 import numpy as np
-from numba import njit
+import numpy.typing as npt
 
-from attnlab.kernels.compile import compiled
+from attnlab.kernels.compile import compiled, inner
+
+Floats = npt.NDArray[np.float64]
 
 
-@njit(error_model="numpy")
-def crossing(x, y, dx, dy, c, s, half_length, half_width):
+@inner
+def crossing(x: float, y: float, dx: float, dy: float, c: float, s: float, half_length: float, half_width: float
+             ) -> tuple[float, float]:
     """Where the line from (x, y), relative to the box's centre, along (dx, dy) enters and leaves it, in units of
     (dx, dy); (inf, -inf) if it misses."""
     px, py = c * x + s * y, c * y - s * x
@@ -36,7 +39,8 @@ def crossing(x, y, dx, dy, c, s, half_length, half_width):
 
 
 @compiled("void(float64[:, ::1], int64, float64[:, ::1], float64[:, ::1], float64, float64, float64[::1])")
-def sonar(trace, cycle, boxes, beams, reach, shortest, ranges):
+def sonar(trace: Floats, cycle: int, boxes: Floats, beams: Floats, reach: float, shortest: float, ranges: Floats
+          ) -> None:
     """Fill ``ranges`` (m) of the first len(ranges) rows of ``beams``, see :data:`attnlab.simulators.robot.BEAMS`.
 
     The first surface on the way is heard, from whichever side.
@@ -58,8 +62,8 @@ def sonar(trace, cycle, boxes, beams, reach, shortest, ranges):
         ranges[k] = max(nearest - beams[k, 4], shortest)
 
 
-@njit(error_model="numpy")
-def arc(trace, at, v, w, dt):
+@inner
+def arc(trace: Floats, at: int, v: float, w: float, dt: float) -> None:
     """The pose after a cycle into ``trace[at]``, as :func:`attnlab.simulators.robot.arc` has it, heading wrapped."""
     x, y, heading, turn = trace[at - 1, 0], trace[at - 1, 1], trace[at - 1, 2], w * dt
     after = heading + turn
@@ -72,8 +76,8 @@ def arc(trace, at, v, w, dt):
     trace[at, 2] = (after + pi) % (2 * pi) - pi
 
 
-@njit(error_model="numpy")
-def touches(x, y, boxes, radius):
+@inner
+def touches(x: float, y: float, boxes: Floats, radius: float) -> bool:
     """Does a disc touch a box? Touching edges do."""
     for b in range(len(boxes)):
         dx, dy = x - boxes[b, 0], y - boxes[b, 1]
@@ -84,8 +88,8 @@ def touches(x, y, boxes, radius):
     return False
 
 
-@njit(error_model="numpy")
-def span(box, x, y, c, s, columns, focal):
+@inner
+def span(box: Floats, x: float, y: float, c: float, s: float, columns: int, focal: float) -> tuple[int, int]:
     """First and one past the last column that can meet a box; all of them if part of it is not ahead."""
     low, high, behind = inf, -inf, 0
     for corner in range(4):
@@ -105,8 +109,8 @@ def span(box, x, y, c, s, columns, focal):
     return int(max(low - 1.0, 0.0)), int(min(high + 1.0, float(columns)))
 
 
-@njit(error_model="numpy")
-def pixel_rows(half_px, rows):
+@inner
+def pixel_rows(half_px: float, rows: int) -> int:
     """How many of ``rows`` pixel centres lie within ``half_px`` of the image's middle line."""
     if half_px >= rows / 2:
         return rows
@@ -114,7 +118,8 @@ def pixel_rows(half_px, rows):
 
 
 @compiled("int64(float64[:, ::1], int64, float64[:, ::1], int64, int64, int64, float64, float64, float64[:, ::1])")
-def blobs(trace, cycle, boxes, cubes, columns, rows, focal, half_height, seen):
+def blobs(trace: Floats, cycle: int, boxes: Floats, cubes: int, columns: int, rows: int, focal: float,
+          half_height: float, seen: Floats) -> int:
     """Blobs of the pinhole camera at the robot's centre; how many rows of ``seen`` are filled.
 
     The first ``cubes`` boxes make blobs, the others only hide. ``half_height``: how far every box reaches above and
@@ -153,7 +158,8 @@ def blobs(trace, cycle, boxes, cubes, columns, rows, focal, half_height, seen):
 
 @compiled("int64(float64[:, ::1], int64, float64[:, ::1], float64, float64, float64, int64, float64, float64,"
           " float64[:, ::1], float64, float64)")
-def advance(trace, cycle, boxes, v, w, dt, cycles, radius, safety, beams, reach, shortest):
+def advance(trace: Floats, cycle: int, boxes: Floats, v: float, w: float, dt: float, cycles: int, radius: float,
+            safety: float, beams: Floats, reach: float, shortest: float) -> int:
     """Move up to ``cycles`` cycles of ``dt`` s at v (m/s), w (rad/s), writing ``trace``; the number moved, negative if
     the last of them crashed: the disc of ``radius`` m touches a box, or (``safety`` > 0) the echo of one of
     ``beams`` comes from nearer than ``safety`` m to the centre."""

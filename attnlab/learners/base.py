@@ -65,7 +65,7 @@ class Learner(ABC):
         none. ``play`` plays candidates in the run's world."""
         return {}
 
-    def __init__(self, params, context: LearnerContext):
+    def __init__(self, params: Any, context: LearnerContext):
         self.params, self.context = params, context
         self.actions = len(context.periods)
         self.q = [[0.0] * self.actions for _ in range(context.states)]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from attnlab.equations import q_update
-from attnlab.learners.q_learning import QLearning
+from attnlab.learners.base import LearnerContext
+from attnlab.learners.q_learning import QLearning, TabularParams
 from attnlab.registry import register
 
 
@@ -16,7 +17,7 @@ class DoubleQ(QLearning):
     ``q`` and ``values`` are the mean of both. Draws one number an update.
     """
 
-    def __init__(self, params, context):
+    def __init__(self, params: TabularParams, context: LearnerContext):
         super().__init__(params, context)
         self._tables = [[[0.0] * self.actions for _ in range(context.states)] for _ in range(2)]
 

@@ -6,7 +6,8 @@ from random import Random
 
 from attnlab.equations import q_update
 from attnlab.exploration.base import Exploration
-from attnlab.learners.q_learning import QLearning
+from attnlab.learners.base import LearnerContext
+from attnlab.learners.q_learning import QLearning, TabularParams
 from attnlab.registry import register
 
 
@@ -15,7 +16,7 @@ class ExpectedSarsa(QLearning):
     """Q(s,a) <- (1 - alpha) Q(s,a) + alpha (R + gamma sum_a' pi(a'|s') Q(s',a')) (van Seijen et al. 2009, ADPRL, p.
     177), pi being the exploration in use, which must say how likely its choices are. Draws nothing at random."""
 
-    def __init__(self, params, context):
+    def __init__(self, params: TabularParams, context: LearnerContext):
         super().__init__(params, context)
         self._policy: Exploration | None = None
 

@@ -33,7 +33,9 @@ class Fixed(NoLearner):
     @dataclass
     class Params:
         period: int = setting(4, "of every behaviour not named in periods", unit="mc")
-        periods: dict = setting({}, "period by behaviour, -1 for a random one", unit="mc")
+        periods: dict[str, int] = setting({}, "period by behaviour, -1 for a random one", unit="mc")
+
+    params: Params
 
     def __init__(self, params: Params, context: LearnerContext):
         super().__init__(params, context)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from random import Random
+from typing import Any, Literal
 
 from attnlab.errors import ConfigError
 from attnlab.exploration.base import Exploration
@@ -16,8 +17,8 @@ from attnlab.settings import build, setting
 @dataclass
 class Function:
     """The monitoring function of one behaviour."""
-    kind: str = setting("linear", "period from the percept (linear, table) or from its change (derivative)",
-                        choices=("linear", "table", "derivative"))
+    kind: Literal["linear", "table", "derivative"] = setting(
+        "linear", "period from the percept (linear, table) or from its change (derivative)")
     lowest_mc: float = setting(1.0, "linear: period at the lowest percept", unit="mc", above=0)
     highest_mc: float = setting(12.0, "linear: period at the highest percept", unit="mc", above=0)
     bend: float = setting(1.0, "linear: power of the percept; 1 is a straight line", above=0)
@@ -44,8 +45,10 @@ class Monitor(NoLearner):
     @dataclass
     class Params:
         default: Function = setting(Function(), "the function of every behaviour not named below")
-        behaviours: dict = setting({name: dict(SATISFY) for name in ("eat", "drink", "give")},
+        behaviours: dict[str, dict[str, Any]] = setting({name: dict(SATISFY) for name in ("eat", "drink", "give")},
                                    "by behaviour: what differs")
+
+    params: Params
 
     def __init__(self, params: Params, context: LearnerContext):
         super().__init__(params, context)

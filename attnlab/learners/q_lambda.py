@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from attnlab.learners.base import LearnerContext
 from attnlab.learners.q_learning import QLearning, TabularParams
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -22,7 +23,9 @@ class QLambda(QLearning):
         lam: float = setting(0.8, "lambda: fading of the traces", low=0, high=1)
         least: float = setting(1e-3, "traces below this are dropped", above=0, high=1)
 
-    def __init__(self, params, context):
+    params: Params
+
+    def __init__(self, params: Params, context: LearnerContext):
         super().__init__(params, context)
         self._traces: dict[tuple[int, int], float] = {}
 

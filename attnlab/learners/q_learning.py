@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from attnlab.equations import q_update
-from attnlab.learners.base import Learner
+from attnlab.learners.base import Learner, LearnerContext
 from attnlab.registry import register
 from attnlab.settings import setting
 
@@ -23,8 +23,9 @@ class QLearning(Learner):
     ``reading.q_update=smdp`` discounts by gamma^period instead of gamma (Bradtke & Duff 1995). Draws nothing at random.
     """
     Params = TabularParams
+    params: TabularParams
 
-    def __init__(self, params: TabularParams, context):
+    def __init__(self, params: TabularParams, context: LearnerContext):
         super().__init__(params, context)
         longest = max(context.periods)
         smdp = context.reading.q_update == "smdp"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from attnlab.learners.base import LearnerContext
 from attnlab.learners.q_learning import QLearning, TabularParams
 from attnlab.registry import register
 
@@ -12,6 +13,6 @@ class SmdpQ(QLearning):
     (2) with gamma^p for a period of p cycles, so that gamma is a discount a cycle and a long period is a long time.
     The same as ``q_learning`` under ``reading.q_update=smdp``, whatever the reading. Draws nothing at random."""
 
-    def __init__(self, params: TabularParams, context):
+    def __init__(self, params: TabularParams, context: LearnerContext):
         super().__init__(params, context)
         self._discount = [params.gamma ** cycles for cycles in range(max(context.periods) + 1)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from math import ceil
+from typing import Any
 
 from attnlab.equations import energy_after_cycle, need_after_cycle
 from attnlab.reading import Reading
@@ -58,7 +59,7 @@ class Body:
         self.e_u, self.e_nb, self.energy_start = e_u, e_nb, energy_start
         self.energy = energy_start
         self.dead = False
-        self._deadly = [(i, need) for i, need in enumerate(needs) if need.death_at is not None]
+        self._deadly = [(i, need, need.death_at) for i, need in enumerate(needs) if need.death_at is not None]
         self._energy_floor = reading.energy_min if reading.energy_death else None
         self._rates = [(need.per_activation, need.per_cycle, need.feeds_energy) for need in needs]
         self.start()
@@ -85,8 +86,8 @@ class Body:
         """How many of the next ``cycles`` (the first with ``active`` behaviours, then none) the robot lives,
         counting the one it dies in."""
         eaten = self._eaten
-        for i, need in self._deadly:
-            left = need.death_at - need_after_cycle(self.values[i], need.per_activation, active, eaten[i])
+        for i, need, limit in self._deadly:
+            left = limit - need_after_cycle(self.values[i], need.per_activation, active, eaten[i])
             if left - need.per_cycle <= 0:
                 return 1
             if need.per_cycle > 0:
@@ -112,8 +113,8 @@ class Body:
         if self._ate:
             self._eaten = [0.0] * len(values)
             self._ate = False
-        for i, need in self._deadly:
-            if values[i] >= need.death_at:
+        for i, need, limit in self._deadly:
+            if values[i] >= limit:
                 return need.name
         if self._energy_floor is not None and self.energy < self._energy_floor:
             return "energy"
@@ -124,7 +125,7 @@ class Needs(ABC):
     """Builds the body of a robot."""
     name: str
 
-    def __init__(self, params, reading: Reading):
+    def __init__(self, params: Any, reading: Reading):
         self.params, self.reading = params, reading
 
     @abstractmethod

@@ -18,6 +18,8 @@ class Survival(Needs):
         cycle_energy: float = setting(1.0, "e_u: energy a cycle costs", unit="UoE", low=0)
         activation_energy: float = setting(1.0, "e_nb: energy an active behaviour costs", unit="UoE", low=0)
 
+    params: Params
+
     def body(self, more: list[Need]) -> Body:
         r, p = self.reading, self.params
         deadly = r.need_max if r.need_death else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from typing import Any
 
 from attnlab.behaviours.base import Behaviour
 from attnlab.errors import PartError
@@ -14,7 +15,7 @@ class Penalty(ABC):
     """Says who is penalised when the robot dies; chosen by ``reading.penalised``."""
     name: str
 
-    def __init__(self, params, reading: Reading):
+    def __init__(self, params: Any, reading: Reading):
         self.params, self.reading = params, reading
 
     @abstractmethod

@@ -5,9 +5,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from math import radians
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
+import numpy.typing as npt
 
 from attnlab.settings import setting
 from attnlab.simulators.robot import FRONT, SONARS, Camera, centre_distances
@@ -22,6 +23,23 @@ class Blob(NamedTuple):
     area_px: int
     distance_m: float  # the proxy computed from the height
     solid: int
+
+
+class Surroundings(Protocol):
+    """What may be asked about the world around a robot in machine cycle ``cycle``."""
+    cycle: int
+
+    def front_distances(self) -> list[float]:
+        """Echoes of the 8 frontal sonars as distances from the robot's centre, m, left to right."""
+
+    def ring(self) -> list[float]:
+        """Echoes of all 16 sonars as distances from the robot's centre, m, in the order of the ring."""
+
+    def blobs(self, kind: str) -> list[Blob]:
+        """The cubes of this kind in view, empty sources left out."""
+
+    def heading(self) -> float:
+        """Of the robot, from odometry, rad."""
 
 
 @dataclass
@@ -55,7 +73,7 @@ class Simulator(ABC):
         self.params, self.layout, self.dt_s = params, context.layout, context.dt_s
         self.safety_distance_m = context.safety_distance_m
         self.camera = Camera(params.camera_columns, params.camera_rows, radians(params.camera_fov_deg))
-        self.trace = np.zeros((context.max_cycles + 1, 3))
+        self.trace: npt.NDArray[np.float64] = np.zeros((context.max_cycles + 1, 3))
         self.cycle = 0
 
     def place(self, x: float, y: float, heading: float) -> None:
@@ -75,6 +93,10 @@ class Simulator(ABC):
     @abstractmethod
     def blobs(self) -> list[Blob]:
         """A blob for every cube in view (walls are none), in the order of the layout's solids."""
+
+    def hand(self) -> tuple[float, float]:
+        """(distance m, speed m/s) of a human hand before the robot; few worlds hold one."""
+        raise NotImplementedError(f"simulator '{self.name}' shows no hand")
 
     @abstractmethod
     def advance(self, v: float, w: float, cycles: int) -> tuple[int, bool]:
@@ -100,8 +122,8 @@ class Simulator(ABC):
         return self.safety_distance_m is not None and \
             min(centre_distances(self.sonar(len(FRONT)))) < self.safety_distance_m
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()

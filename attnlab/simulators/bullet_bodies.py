@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import cos, sin
+from types import ModuleType
 
 from attnlab.simulators.robot import RADIUS_M, WHEEL_BASE_M, WHEEL_RADIUS_M
 from attnlab.worlds.base import Layout
@@ -15,15 +16,16 @@ RAY, WORLD_GROUP, ROBOT_GROUP, RAY_GROUP = 1, 2, 4, 8  # a ray, what the robot t
 CLEAR_M = 0.05  # the base hangs this far above the floor
 
 
-def add_floor(p, client: int) -> int:
+def add_floor(p: ModuleType, client: int) -> int:
     """An endless floor for the wheels; the base never touches it."""
-    floor = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client), physicsClientId=client)
+    plane = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client)
+    floor: int = p.createMultiBody(0, plane, physicsClientId=client)
     hide(p, client, floor)
     p.setCollisionFilterGroupMask(floor, -1, WORLD_GROUP, ROBOT_GROUP, physicsClientId=client)
     return floor
 
 
-def add_solids(p, client: int, layout: Layout, draw_all: bool) -> tuple[dict[int, int], dict[int, int]]:
+def add_solids(p: ModuleType, client: int, layout: Layout, draw_all: bool) -> tuple[dict[int, int], dict[int, int]]:
     """All solids as static boxes, each with a surface for rays around it.
 
     Returns body -> index in ``layout.solids`` of the boxes that make blobs, and surface -> body of the same.
@@ -50,22 +52,23 @@ def add_solids(p, client: int, layout: Layout, draw_all: bool) -> tuple[dict[int
     return seen, surfaces
 
 
-def _surface(p, client: int, half: tuple[float, float, float]) -> int:
+def _surface(p: ModuleType, client: int, half: tuple[float, float, float]) -> int:
     """The four sides as triangles: Bullet's ray is exact for them, and up to 1.4 mm short of a box."""
     x, y, z = half
     corners = [(i * x, j * y, k * z) for k in (-1, 1) for i, j in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
     sides = [triangle for a, b in ((0, 1), (1, 2), (2, 3), (3, 0)) for triangle in (a, b, b + 4, a, b + 4, a + 4)]
-    return p.createCollisionShape(p.GEOM_MESH, vertices=corners, indices=sides, flags=p.GEOM_FORCE_CONCAVE_TRIMESH,
-                                  physicsClientId=client)
+    shape: int = p.createCollisionShape(p.GEOM_MESH, vertices=corners, indices=sides,
+                                        flags=p.GEOM_FORCE_CONCAVE_TRIMESH, physicsClientId=client)
+    return shape
 
 
-def hide(p, client: int, body: int) -> None:
+def hide(p: ModuleType, client: int, body: int) -> None:
     """Keep a body out of the image: without a visual shape of its own Bullet draws its collision shape."""
     for link in range(-1, p.getNumJoints(body, physicsClientId=client)):
         p.changeVisualShape(body, link, rgbaColor=(0, 0, 0, 0), physicsClientId=client)
 
 
-def add_robot(p, client: int, wheels: bool, visible: bool) -> tuple[int, float, tuple[int, ...]]:
+def add_robot(p: ModuleType, client: int, wheels: bool, visible: bool) -> tuple[int, float, tuple[int, ...]]:
     """The robot at the origin; (body id, height of its base's centre in m, wheel joints: left, right).
 
     Kinematic: the footprint as one cylinder. On wheels: a 9 kg base on two driven wheels and two frictionless casters.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import cos, sin
+from types import ModuleType
 
 import numpy as np
 
@@ -15,7 +16,7 @@ Columns = dict[int, list[int]]  # body -> its pixels in each column of the image
 class Segmentation:
     """Bullet's software renderer, one body number a pixel. What is nearer than NEAR_M is cut off."""
 
-    def __init__(self, p, client: int, camera: Camera, reach_m: float):
+    def __init__(self, p: ModuleType, client: int, camera: Camera, reach_m: float):
         """``reach_m``: as far as anything can be; the depth of the image loses precision beyond need."""
         self._p, self._client, self._camera = p, client, camera
         # The renderer samples a pixel at its corner of least coordinates: half a pixel to the left and up makes that
@@ -40,8 +41,8 @@ class Rays:
     """One ray for each column, at the height of the camera; the rows follow from its depth, as all solids are 0.5 m
     high and the camera is at half of that."""
 
-    def __init__(self, p, client: int, camera: Camera, base_z: float, group: int, surfaces: dict[int, int],
-                 reach_m: float):
+    def __init__(self, p: ModuleType, client: int, camera: Camera, base_z: float, group: int,
+                 surfaces: dict[int, int], reach_m: float):
         """``surfaces``: body hit by a ray -> body it belongs to; ``reach_m``: as far as anything can be."""
         self._p, self._client, self._camera, self._group, self._surfaces = p, client, camera, group, surfaces
         z = CAMERA_HEIGHT_M - base_z
@@ -52,7 +53,8 @@ class Rays:
 
     def look(self, x: float, y: float, heading: float, robot: int, bodies: list[int]) -> Columns:
         """Pixels a column of every visible one of ``bodies``, seen from where the robot is."""
-        cam, seen = self._camera, {}
+        cam = self._camera
+        seen: Columns = {}
         hits = self._p.rayTestBatch(self._from, self._to, parentObjectUniqueId=robot, collisionFilterMask=self._group,
                                     physicsClientId=self._client)
         for column, hit in enumerate(hits):

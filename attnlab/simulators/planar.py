@@ -11,6 +11,7 @@ from attnlab.errors import ConfigError
 from attnlab.registry import register
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
 from attnlab.simulators.robot import BEAMS, CAMERA_HEIGHT_M, FRONT, RADIUS_M, SONAR_MIN_M
+from attnlab.worlds.geometry import Solid
 
 
 @register("simulator", "planar")
@@ -79,7 +80,7 @@ class Planar(Simulator):
         return moved, False
 
 
-def _row(solid) -> tuple[float, ...]:
+def _row(solid: Solid) -> tuple[float, ...]:
     half_length, half_width = solid.length_m / 2, solid.width_m / 2
     return (solid.x_m, solid.y_m, cos(solid.yaw_rad), sin(solid.yaw_rad), half_length, half_width,
             hypot(half_length, half_width))

@@ -6,8 +6,11 @@ import contextlib
 import ctypes
 import os
 import weakref
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
+from types import ModuleType
+from typing import Any, Literal
 
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -20,7 +23,7 @@ PHYSICS_HZ = 240
 
 
 @contextlib.contextmanager
-def silence():
+def silence() -> Iterator[None]:
     """Bullet prints a build line from C when it is imported; keep it out of our output."""
     null = os.open(os.devnull, os.O_WRONLY)
     saved = [(fd, os.dup(fd)) for fd in (1, 2)]
@@ -48,11 +51,13 @@ class PyBullet(Simulator):
 
     @dataclass
     class Params(SensorParams):
-        drive: str = setting("kinematic", "how the robot moves", choices=("kinematic", "wheels"))
-        camera: str = setting("segmentation", "blobs from the rendered image, or from one ray a column",
-                              choices=("segmentation", "rays"))
+        drive: Literal["kinematic", "wheels"] = setting("kinematic", "how the robot moves")
+        camera: Literal["segmentation", "rays"] = setting(
+            "segmentation", "blobs from the rendered image, or from one ray a column")
         gui: bool = setting(False, "open Bullet's window")
         wheel_force_n: float = setting(40.0, "largest torque of a wheel motor", unit="N m", above=0)
+
+    params: Params
 
     def __init__(self, params: Params, context: SimulatorContext):
         super().__init__(params, context)
@@ -72,6 +77,7 @@ class PyBullet(Simulator):
         self._beams = [(o, o + reach) for *_, o in BEAMS]
         self._pose = (0.0, 0.0, 0.0)
         reach = 10.0 + hypot(self.layout.width_m, self.layout.depth_m)
+        self._camera: Rays | Segmentation
         if params.camera == "rays":
             self._camera = Rays(p, self._client, self.camera, self._base_z, RAY_GROUP, self._surfaces, reach)
         else:
@@ -161,11 +167,11 @@ class PyBullet(Simulator):
         contacts = self._p.getContactPoints(bodyA=self._robot, linkIndexA=-1, physicsClientId=self._client)
         return any(contact[8] <= 0.0 for contact in contacts)
 
-    def snapshot(self) -> tuple:
+    def snapshot(self) -> Any:
         state = self._p.saveState(physicsClientId=self._client) if self._wheels else None
         return self._pose, self.cycle, self.trace[:self.cycle + 1].copy(), state
 
-    def restore(self, state: tuple) -> None:
+    def restore(self, state: Any) -> None:
         pose, self.cycle, path, saved = state
         self.trace[:self.cycle + 1] = path
         if saved is None:
@@ -178,6 +184,6 @@ class PyBullet(Simulator):
         self._finalizer()
 
 
-def _disconnect(p, client: int) -> None:
+def _disconnect(p: ModuleType, client: int) -> None:
     with contextlib.suppress(p.error):
         p.disconnect(client)

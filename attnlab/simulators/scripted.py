@@ -34,6 +34,8 @@ class Scripted(Simulator):
             [[0.0, 1.5], [4.0, 1.5], [9.0, 0.9], [13.0, 0.9], [15.0, 0.2], [19.0, 0.2], [22.0, 1.5]],
             "[t s, distance of the hand m]: rest, a slow approach, rest, a fast one, rest close by, retreat")
 
+    params: Params
+
     def __init__(self, params: Params, context: SimulatorContext):
         super().__init__(params, context)
         if params.csv is not None:
@@ -50,7 +52,8 @@ class Scripted(Simulator):
         u = (t_s - self._times[i - 1]) / (self._times[i] - self._times[i - 1])
         if self._smooth:
             u = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
-        return tuple(a + u * (b - a) for a, b in zip(self._points[i - 1], self._points[i], strict=True))
+        (x, y, z), (x1, y1, z1) = self._points[i - 1], self._points[i]
+        return x + u * (x1 - x), y + u * (y1 - y), z + u * (z1 - z)
 
     def hand(self) -> tuple[float, float]:
         """(distance m, speed m/s) of the hand now; the speed is the mean over the last cycle."""
@@ -86,7 +89,8 @@ def read_csv(path: str) -> tuple[list[float], list[Point]]:
     import csv
     if not Path(path).is_file():
         raise ConfigError("simulator.csv", f"there is no file {path}")
-    times, points = [], []
+    times: list[float] = []
+    points: list[Point] = []
     with open(path, newline="") as file:
         for line, row in enumerate(csv.DictReader(file), start=2):
             try:

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
 
 
-def distances(tables: np.ndarray) -> np.ndarray:
+def distances(tables: Ints) -> Floats:
     """Share of cells that differ between any two of ``tables`` (n, cells), of the cells both have (not 0): (n, n),
     nan where they share no cell."""
     known = tables != 0
@@ -13,10 +17,11 @@ def distances(tables: np.ndarray) -> np.ndarray:
     differ = both & (tables[:, None, :] != tables[None, :, :])
     count = both.sum(axis=2)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return differ.sum(axis=2) / count
+        shares: Floats = differ.sum(axis=2) / count
+    return shares
 
 
-def _contrast(distance: np.ndarray, level: np.ndarray, seeds: int) -> np.ndarray:
+def _contrast(distance: Floats, level: Ints, seeds: int) -> Floats:
     """For each seed: mean distance of its tables to other seeds' tables of other levels, less that of the same level.
 
     ``distance``: (seeds * levels, same), ``level``: the level of each table.
@@ -35,13 +40,13 @@ def _contrast(distance: np.ndarray, level: np.ndarray, seeds: int) -> np.ndarray
     return values
 
 
-def level_contrast(tables: np.ndarray) -> np.ndarray:
+def level_contrast(tables: Ints) -> Floats:
     """Between-level less within-level distance of each seed, shape (seeds,), from ``tables`` (seeds, levels, cells)."""
     seeds, levels, cells = tables.shape
     return _contrast(distances(tables.reshape(seeds * levels, cells)), np.tile(np.arange(levels), seeds), seeds)
 
 
-def level_null(tables: np.ndarray, draws: int = 1000, seed: int = 0) -> np.ndarray:
+def level_null(tables: Ints, draws: int = 1000, seed: int = 0) -> Floats:
     """Means of :func:`level_contrast` over seeds with the levels of every seed exchanged at random, shape (draws,)."""
     seeds, levels, cells = tables.shape
     distance = distances(tables.reshape(seeds * levels, cells))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
 
 RESAMPLES = 2000
 
@@ -18,13 +20,13 @@ class Interval(NamedTuple):
     high: float
 
 
-def mean(values: Sequence[float]) -> float:
+def mean(values: npt.ArrayLike) -> float:
     """The mean of what is not missing; nan for nothing."""
     kept = _kept(values)
     return float(kept.mean()) if kept.size else float("nan")
 
 
-def iqm(values: Sequence[float]) -> float:
+def iqm(values: npt.ArrayLike) -> float:
     """Interquartile mean: the mean of the middle half (Agarwal et al. 2021), scipy's 25 % trimmed mean."""
     from scipy.stats import trim_mean
     kept = _kept(values)
@@ -32,12 +34,12 @@ def iqm(values: Sequence[float]) -> float:
 
 
 @lru_cache(maxsize=64)
-def _resampled(n: int, resamples: int, seed: int) -> np.ndarray:
+def _resampled(n: int, resamples: int, seed: int) -> npt.NDArray[np.int64]:
     """Indices of bootstrap samples, shape (resamples, n)."""
     return np.random.default_rng([seed, n]).integers(0, n, (resamples, n))
 
 
-def bootstrap_interval(values: Sequence[float], statistic: str = "mean", confidence: float = 0.95,
+def bootstrap_interval(values: npt.ArrayLike, statistic: str = "mean", confidence: float = 0.95,
                        resamples: int = RESAMPLES, seed: int = 0) -> Interval:
     """Percentile bootstrap interval of the ``mean`` or ``iqm`` over seeds; missing values are left out."""
     from scipy.stats import trim_mean
@@ -52,8 +54,8 @@ def bootstrap_interval(values: Sequence[float], statistic: str = "mean", confide
     return Interval(value, float(low), float(high))
 
 
-def bootstrap_band(values: np.ndarray, confidence: float = 0.95, resamples: int = RESAMPLES,
-                   seed: int = 0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def bootstrap_band(values: npt.ArrayLike, confidence: float = 0.95, resamples: int = RESAMPLES,
+                   seed: int = 0) -> tuple[Floats, Floats, Floats]:
     """(mean, low, high), each of shape (x,), of ``values`` with shape (seeds, x): whole seeds are drawn, so that a band
     keeps a seed's curve together. A cell nobody has is nan; low and high are nan where fewer than two seeds are."""
     values = np.asarray(values, float)
@@ -78,13 +80,13 @@ def bootstrap_band(values: np.ndarray, confidence: float = 0.95, resamples: int 
     return centre, low, high
 
 
-def paired(treatment: dict[int, float], control: dict[int, float]) -> np.ndarray:
+def paired(treatment: dict[int, float], control: dict[int, float]) -> Floats:
     """Differences treatment - control of the seeds that both have, in the order of the seeds; missing ones left out."""
     seeds = sorted(set(treatment) & set(control))
     return _kept([treatment[seed] - control[seed] for seed in seeds])
 
 
-def effect_size(values: Sequence[float], reference: float = 0.0) -> float:
+def effect_size(values: npt.ArrayLike, reference: float = 0.0) -> float:
     """Cohen's d of (paired) values against a reference: (mean - reference) / standard deviation (n - 1).
 
     nan for fewer than two values; infinite if all are the same and differ from the reference.
@@ -98,7 +100,7 @@ def effect_size(values: Sequence[float], reference: float = 0.0) -> float:
     return float(shift / spread)
 
 
-def improvement(treatment: Sequence[float], control: Sequence[float]) -> float:
+def improvement(treatment: npt.ArrayLike, control: npt.ArrayLike) -> float:
     """Probability of improvement: that a treatment run beats a control run, ties half (Mann-Whitney U / nm)."""
     from scipy.stats import mannwhitneyu
     a, b = _kept(treatment), _kept(control)
@@ -108,14 +110,14 @@ def improvement(treatment: Sequence[float], control: Sequence[float]) -> float:
 
 
 @lru_cache(maxsize=64)
-def _signs(n: int, draws: int, seed: int) -> tuple[np.ndarray, bool]:
+def _signs(n: int, draws: int, seed: int) -> tuple[npt.NDArray[np.floating[Any]], bool]:
     """Sign patterns, shape (patterns, n), and whether they are all there are."""
     if 2 ** n <= draws:
         return 1.0 - 2.0 * ((np.arange(2 ** n)[:, None] >> np.arange(n)) & 1), True
     return np.random.default_rng([seed, n]).choice([-1.0, 1.0], (draws, n)), False
 
 
-def sign_flip_p(values: Sequence[float], reference: float = 0.0, draws: int = 10_000, seed: int = 0) -> float:
+def sign_flip_p(values: npt.ArrayLike, reference: float = 0.0, draws: int = 10_000, seed: int = 0) -> float:
     """Two-sided p value of "the mean is ``reference``" by flipping the signs of the deviations (Fisher's paired
     permutation test): exact while 2^n <= ``draws``, else seeded draws. nan for fewer than two values."""
     kept = _kept(values) - reference
@@ -127,7 +129,7 @@ def sign_flip_p(values: Sequence[float], reference: float = 0.0, draws: int = 10
     return as_extreme / len(patterns) if exact else (as_extreme + 1) / (len(patterns) + 1)
 
 
-def holm(p_values: Sequence[float]) -> list[float]:
+def holm(p_values: npt.ArrayLike) -> list[float]:
     """Holm's step-down correction, in the order given; nan stays nan and is not counted."""
     p = np.asarray(p_values, float)
     adjusted = np.full(p.shape, np.nan)
@@ -137,9 +139,11 @@ def holm(p_values: Sequence[float]) -> list[float]:
     for rank, index in enumerate(order):
         top = max(top, min(1.0, (len(order) - rank) * p[index]))
         adjusted[index] = top
-    return adjusted.tolist()
+    listed: list[float] = adjusted.tolist()
+    return listed
 
 
-def _kept(values) -> np.ndarray:
+def _kept(values: npt.ArrayLike) -> Floats:
     array = np.asarray(values, float).ravel()
-    return array[~np.isnan(array)]
+    kept: Floats = array[~np.isnan(array)]
+    return kept

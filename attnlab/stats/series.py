@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 
-def block_means(values: Sequence[float], block: int) -> np.ndarray:
+def block_means(episodes: npt.ArrayLike, block: int) -> npt.NDArray[np.float64]:
     """Means of consecutive blocks of ``block`` episodes; a last block of less than half a block is left out."""
-    values = np.asarray(values, float)
+    values = np.asarray(episodes, float)
     edges = range(0, len(values), block)
     parts = [values[i:i + block] for i in edges]
     if len(parts) > 1 and 2 * len(parts[-1]) < block:
@@ -18,12 +18,12 @@ def block_means(values: Sequence[float], block: int) -> np.ndarray:
     return np.array([part.mean() for part in parts])
 
 
-def convergence_episode(values: Sequence[float], block: int, level: float) -> float:
+def convergence_episode(episodes: npt.ArrayLike, block: int, level: float) -> float:
     """Episodes before the first block whose mean is at ``level`` or above and after which no block falls below it.
 
-    ``values``: one number an episode. The number of episodes if that never happens; nan for no episodes.
+    ``episodes``: one number each. The number of episodes if that never happens; nan for no episodes.
     """
-    values = np.asarray(values, float)
+    values = np.asarray(episodes, float)
     if not values.size:
         return float("nan")
     below = np.flatnonzero(block_means(values, block) < level)
@@ -38,7 +38,7 @@ class Rhythm(NamedTuple):
     period: float
 
 
-def rhythm(signal: Sequence[float]) -> Rhythm:
+def rhythm(signal: npt.ArrayLike) -> Rhythm:
     """The peak of the periodogram of a detrended signal (scipy.signal): a sine has share near 1, noise near 0.
 
     The power of the peak's two neighbours counts, for a peak may lie between two frequencies. (0, nan) for a constant.
@@ -61,16 +61,16 @@ def overlap_ratio(activations: float, active_cycles: float) -> float:
     return (activations - active_cycles) / activations if activations else float("nan")
 
 
-def overlap_null(active: np.ndarray, draws: int = 200, seed: int = 0) -> np.ndarray:
+def overlap_null(active: npt.ArrayLike, draws: int = 200, seed: int = 0) -> npt.NDArray[np.float64]:
     """Overlap ratios, shape (draws,), of the same activation trains at random phases.
 
     ``active``: booleans of shape (cycles, behaviours). Each train is turned around the episode by its own random
     amount, which keeps its rhythm and destroys its timing against the others.
     """
-    active = np.asarray(active, bool)
-    n, behaviours = active.shape
+    trains = np.asarray(active, bool)
+    n, behaviours = trains.shape
     rng = np.random.default_rng(seed)
-    at = [np.flatnonzero(active[:, b]) for b in range(behaviours)]
+    at = [np.flatnonzero(trains[:, b]) for b in range(behaviours)]
     total = sum(train.size for train in at)
     ratios = np.full(draws, np.nan)
     for draw, shifts in enumerate(rng.integers(0, n, (draws, behaviours))):

@@ -3,31 +3,33 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 
-def coverage(x_cells: np.ndarray, y_cells: np.ndarray, shape: tuple[int, int]) -> float:
+def coverage(x_cells: npt.ArrayLike, y_cells: npt.ArrayLike, shape: tuple[int, int]) -> float:
     """Share of the ``shape`` = (cells along x, cells along y) floor whose cells were visited by the centre (0-1)."""
     return float(np.unique(np.asarray(x_cells) * shape[1] + np.asarray(y_cells)).size / (shape[0] * shape[1]))
 
 
-def footprint_cells(visits: np.ndarray, radius_m: float, cell_m: float) -> np.ndarray:
+def footprint_cells(visits: npt.ArrayLike, radius_m: float, cell_m: float) -> npt.NDArray[np.bool_]:
     """Cells touched by a round footprint of ``radius_m`` around the visited cells' middles; booleans like ``visits``
     of shape (cells along x, cells along y)."""
     from scipy.ndimage import binary_dilation
     reach = int(np.ceil(radius_m / cell_m))
     i, j = np.mgrid[-reach:reach + 1, -reach:reach + 1]
     disc = np.hypot(i, j) * cell_m <= radius_m + 1e-9
-    return binary_dilation(np.asarray(visits) > 0, structure=disc)
+    touched: npt.NDArray[np.bool_] = binary_dilation(np.asarray(visits) > 0, structure=disc)
+    return touched
 
 
-def entropy_bits(visits: np.ndarray) -> float:
+def entropy_bits(visits: npt.ArrayLike) -> float:
     """Shannon entropy of a visit map in bits: log2(n) if n cells are visited equally often, 0 if only one is."""
     from scipy.stats import entropy
     counts = np.asarray(visits, float).ravel()
     return float(entropy(counts, base=2)) if counts.sum() > 0 else float("nan")
 
 
-def gini(visits: np.ndarray) -> float:
+def gini(visits: npt.ArrayLike) -> float:
     """Gini coefficient of visits over all cells given, unvisited ones too: 0 if all are equal, towards 1 if one has
     everything."""
     counts = np.sort(np.asarray(visits, float).ravel())
@@ -37,7 +39,7 @@ def gini(visits: np.ndarray) -> float:
     return float(2 * (np.arange(1, n + 1) * counts).sum() / (n * total) - (n + 1) / n)
 
 
-def curvature(x_m: np.ndarray, y_m: np.ndarray, step_m: float = 0.1) -> float:
+def curvature(x_m: npt.ArrayLike, y_m: npt.ArrayLike, step_m: float = 0.1) -> float:
     """Mean absolute change of direction along a path in rad/m. 0 for a straight line, 1 / r for a circle of radius r.
 
     The path is first thinned to points ``step_m`` apart, so that turning on the spot and jitter do not count.

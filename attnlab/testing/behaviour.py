@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from random import Random
-from typing import Any
+from typing import Any, TypeVar
 
-from attnlab.behaviours.base import Behaviour, Senses
-from attnlab.needs.base import Need
+from attnlab.behaviours.base import Behaviour, Command, RobotSenses, Senses
+from attnlab.needs.base import Body, Need
+from attnlab.simulators.base import Simulator
 from attnlab.testing.build import layout, make
+
+Seen = TypeVar("Seen")
 
 
 class Scenes:
     """A behaviour in the paper's world, at poses and in states of the body drawn from a seed."""
 
-    def __init__(self, name: str, settings: dict):
+    def __init__(self, name: str, settings: dict[str, Any]):
         self.behaviour: Behaviour = make("behaviours", name, **settings)
-        self.simulator = make("simulator", (self.behaviour.simulators or ("planar",))[0])
-        self.body = make("needs", "survival").body(self.behaviour.needs())
-        self.now = Senses(self.simulator, self.body)
+        self.simulator: Simulator = make("simulator", (self.behaviour.simulators or ("planar",))[0])
+        self.body: Body = make("needs", "survival").body(self.behaviour.needs())
+        self.now = RobotSenses(self.simulator, self.body)
         self.layout = layout()
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Senses]:
         draw = Random(11)
         self.behaviour.start()
         self.now.start()
@@ -36,7 +40,7 @@ class Scenes:
         self.simulator.close()
 
 
-def scenes(name: str, settings: dict, visit) -> list:
+def scenes(name: str, settings: dict[str, Any], visit: Callable[[Behaviour, Senses], Seen]) -> list[Seen]:
     """What ``visit(behaviour, now)`` returns in each scene."""
     world = Scenes(name, settings)
     try:
@@ -89,17 +93,19 @@ def commands_finite(name: str, **settings: Any) -> None:
 
 def forgets(name: str, **settings: Any) -> None:
     """``start`` forgets the last episode: two episodes of a behaviour that draws nothing are the same."""
-    def acts(world: Scenes) -> list:
-        return [(b.percept(now), b.released(now, b.percept(now)), b.command(now, b.percept(now)))
-                for b in (world.behaviour,) for now in world]
+    def act(behaviour: Behaviour, now: Senses) -> tuple[float, bool, Command | None]:
+        sigma = behaviour.percept(now)
+        released = behaviour.released(now, sigma)
+        return sigma, released, behaviour.command(now, sigma) if released else None
     world = Scenes(name, settings)
     try:
         state = world.behaviour.draw.getstate()
-        first = acts(world)
+        first = [act(world.behaviour, now) for now in world]
         if world.behaviour.draw.getstate() != state:
             world.behaviour.draw.setstate(state)
         world.body.start()
-        assert acts(world) == first, f"{name}: the second episode differs; forget what was held in start()"
+        second = [act(world.behaviour, now) for now in world]
+        assert first == second, f"{name}: the second episode differs; forget what was held in start()"
     finally:
         world.close()
 

@@ -2,33 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, cast
 
 from attnlab import registry
 from attnlab.behaviours.base import BehaviourContext
 from attnlab.curiosity.base import CuriosityContext
 from attnlab.learners.base import LearnerContext
-from attnlab.loading import load_all
+from attnlab.loading import config_folders, load_all
+from attnlab.paths import conf_dir
 from attnlab.reading import Reading
 from attnlab.robot.plan import RunPlan
-from attnlab.settings import build
+from attnlab.settings import build, defaults_of
 from attnlab.simulators.base import SimulatorContext
 from attnlab.streams import stream
-from attnlab.worlds.base import Layout
+from attnlab.worlds.base import Layout, World
 
 PERIODS = [1, 4, 8, 12]
 BOXES = [{"kind": kind, "x_m": x, "y_m": y} for kind, x, y in
          (("obstacle", 1.2, 2.8), ("obstacle", 2.8, 1.2), ("food", 0.25, 1.0), ("water", 3.75, 3.0))]
 
 
-def node(group: str, name: str, **settings: Any) -> dict:
-    """The config of a part with its defaults and ``settings``."""
+def node(group: str, name: str, **settings: Any) -> dict[str, Any]:
+    """The config of ``group=name``: a part with its defaults, a preset, or a yaml file; changed by ``settings``."""
     load_all()
+    if (group, name) == ("reading", "inferred"):
+        return {"name": name, **defaults_of(Reading), **settings}
     spec = registry.find(group, name)
-    if spec is None:
-        raise registry.unknown(group, name, group)
-    return {**spec.nodes()[name], **settings}
+    return {**(spec.nodes()[name] if spec else _written(group, name)), **settings}
+
+
+def _written(group: str, name: str) -> dict[str, Any]:
+    """The config of an option that is a yaml file of ours or of a plugin, on top of those in its ``defaults``."""
+    from omegaconf import OmegaConf
+    folders = [folder / group for folder in (conf_dir(), *config_folders())]
+    file = next((folder / f"{name}.yaml" for folder in folders if (folder / f"{name}.yaml").is_file()), None)
+    if file is None:
+        known = {option for spec in registry.parts.values() if spec.group == group for option in spec.nodes()}
+        written = {file.stem for folder in folders for file in folder.glob("*.yaml")}
+        raise registry.unknown(group, name, group, sorted(known | written))
+    own = cast("dict[str, Any]", OmegaConf.to_container(OmegaConf.load(file)))
+    below = own.pop("defaults", [])
+    order = below if "_self_" in below else [*below, "_self_"]
+    merged = OmegaConf.merge(*(own if name == "_self_" else node(group, name) for name in order))
+    return cast("dict[str, Any]", OmegaConf.to_container(merged))
+
+
+def part_of(group: str, name: str) -> registry.Spec:
+    """The part that ``group=name`` sets, whichever of the three it is."""
+    return registry.get(group, node(group, name), group)
 
 
 def reading(**settings: Any) -> Reading:
@@ -39,14 +61,15 @@ def reading(**settings: Any) -> Reading:
 def layout(seed: int = 0, name: str = "layout", **settings: Any) -> Layout:
     """The world of the paper, or another."""
     boxes = {"boxes": BOXES} if name == "layout" else {}
-    return registry.make("world", node("world", name, **{**boxes, **settings}), None).build(seed)
+    world: World = registry.make("world", node("world", name, **{**boxes, **settings}), None)
+    return world.build(seed)
 
 
 def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None = None, world: Layout | None = None,
          behaviour: str = "avoid", levels: tuple[str, ...] = ("low", "LH", "HH"), **settings: Any) -> Any:
     """The part ``group=name`` with ``settings``, under the reading ``how``; streams from ``seed``."""
     r = reading(**(how or {}))
-    contexts = {
+    contexts: dict[str, Callable[[], Any]] = {
         "curiosity": lambda: CuriosityContext(r, r.percept_bins, stream(seed, "curiosity")),
         "behaviours": lambda: BehaviourContext(r, stream(seed, "behaviour", name)),
         "learner": lambda: LearnerContext(r, behaviour, levels, PERIODS, r.percept_bins, stream(seed, "learner")),
@@ -60,9 +83,9 @@ def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None 
 def config(*, simulator: str = "planar", behaviours: tuple[str, ...] = ("avoid", "eat", "drink"),
            world: Mapping[str, Any] | None = None, how: Mapping[str, Any] | None = None, curiosity: Any = "litman",
            learner: Any = "q_learning", exploration: Any = "softmax", needs: Any = "survival",
-           fusion: Any = "min_speed_sum_turn", **top: Any) -> dict:
+           fusion: Any = "min_speed_sum_turn", **top: Any) -> dict[str, Any]:
     """A run's config; a part is a name or {name: ..., setting: ...}. Short unless ``top`` says otherwise."""
-    def part(group: str, chosen: Any) -> dict:
+    def part(group: str, chosen: Any) -> dict[str, Any]:
         return node(group, chosen) if isinstance(chosen, str) else node(group, **chosen)
     return {"seed": 0, "train_episodes": 2, "validation_episodes": 1, "max_cycles": 120, "record": "all",
             "reading": {"name": "inferred", **(how or {})}, "simulator": part("simulator", simulator),
@@ -72,7 +95,7 @@ def config(*, simulator: str = "planar", behaviours: tuple[str, ...] = ("avoid",
             "learner": part("learner", learner), "exploration": part("exploration", exploration), **top}
 
 
-def run(**settings: Any) -> dict[str, dict[str, list]]:
+def run(**settings: Any) -> dict[str, dict[str, list[Any]]]:
     """The tables of a run of :func:`config`."""
     from attnlab.robot.episodes import play_run
     return play_run(RunPlan(config(**settings)))[0]

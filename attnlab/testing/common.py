@@ -12,28 +12,29 @@ from typing import Any
 
 from attnlab import registry
 from attnlab.settings import build, defaults_of
-from attnlab.testing.build import config
+from attnlab.testing.build import config, node, part_of
 
 IN_A_RUN = ("simulator", "behaviours", "needs", "fusion", "curiosity", "learner", "exploration")
 
 
-def checks(group: str) -> list[Callable]:
+def checks(group: str) -> list[Callable[..., None]]:
     """Checks of :data:`group` that need nothing special."""
     def documented(name: str, **settings: Any) -> None:
         """The class says what it is; every parameter says what it means."""
-        spec = registry.find(group, name)
+        spec = part_of(group, name)
         assert (inspect.getdoc(spec.cls) or "").strip(), f"{spec.origin}: {spec.cls.__name__} has no docstring"
         for field in dataclasses.fields(spec.params):
             assert field.metadata.get("doc"), f"{spec.origin}: parameter {field.name} has no doc: use setting(...)"
 
     def typed(name: str, **settings: Any) -> None:
         """Parameters have types that a config can be checked against, and their defaults pass."""
-        spec = registry.find(group, name)
+        spec = part_of(group, name)
         hints = typing.get_type_hints(spec.params)
         assert {field.name for field in dataclasses.fields(spec.params)} <= set(hints), spec.origin
         defaults = defaults_of(spec.params)
         assert defaults_of(type(build(spec.params, defaults, group))) == defaults
         assert plain(defaults), f"{spec.origin}: a default is no number, word, list or mapping: {defaults}"
+        registry.build_params(group, node(group, name, **settings), group)
 
     def runs(name: str, **settings: Any) -> None:
         """A short run with it is complete, finite, and the same when it is run again."""
@@ -75,18 +76,17 @@ def plain(value: Any) -> bool:
     return value is None or isinstance(value, (bool, int, float, str))
 
 
-def whole_run(group: str, name: str, settings: dict) -> dict:
+def whole_run(group: str, name: str, settings: dict[str, Any]) -> dict[str, dict[str, list[Any]]]:
     """The tables of a short run that uses the part."""
     from attnlab.robot.episodes import play_run
     from attnlab.robot.plan import RunPlan
     if group == "behaviours":
-        works_in = registry.find(group, name).cls.simulators
+        works_in: tuple[str, ...] = getattr(part_of(group, name).cls, "simulators", ())
         chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))), simulator=(works_in or ("planar",))[0])
         chosen["behaviours"][name].update(settings)
     elif group == "needs":
         chosen = config(needs={"name": name, **settings}, behaviours=("avoid",))
     else:
-        chosen = config(**{group: {"name": name, **settings}})
+        asked: dict[str, Any] = {group: {"name": name, **settings}}
+        chosen = config(**asked)
     return play_run(RunPlan(chosen))[0]
-
-

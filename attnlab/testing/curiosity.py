@@ -8,6 +8,7 @@ from random import Random
 from typing import Any
 
 from attnlab.curiosity.base import Curiosity
+from attnlab.simulators.base import Blob
 from attnlab.testing.build import make
 
 ENERGIES = (0.0, 300.0, 3067.0, 3500.0, 4600.0, 5200.0)
@@ -31,11 +32,15 @@ class StillSenses:
     def front_distances(self) -> list[float]:
         return self._ring[:8]
 
-    def blobs(self, kind: str) -> list:
+    def blobs(self, kind: str) -> list[Blob]:
         return []
 
+    def heading(self) -> float:
+        return 0.0
 
-def signals(name: str, settings: dict, views: int = 300, restart: bool = False) -> list[tuple]:
+
+def signals(name: str, settings: dict[str, Any], views: int = 300, restart: bool = False
+            ) -> list[tuple[float, float, int, float]]:
     """(wanting, liking, level, reward) over random views; ``restart`` pickles the memory halfway."""
     curiosity: Curiosity = make("curiosity", name, **settings)
     draw, now = Random(7), StillSenses()

@@ -12,7 +12,8 @@ from attnlab.learners.base import Learner
 from attnlab.testing.build import make
 
 
-def journey(name: str, settings: dict, steps: int = 400, restart: bool = False) -> tuple[Learner, list]:
+def journey(name: str, settings: dict[str, Any], steps: int = 400, restart: bool = False
+            ) -> tuple[Learner, list[tuple[int, list[float]]]]:
     """(learner, actions and values) of a walk through random states, an episode every 100 steps."""
     learner: Learner = make("learner", name, **settings)
     walk, draw, exploration = Random(5), Random(6), make("exploration", "softmax")

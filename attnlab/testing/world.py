@@ -6,14 +6,18 @@ import math
 from random import Random
 from typing import Any
 
+from attnlab.simulators.base import Blob, Simulator
 from attnlab.simulators.robot import SONARS
 from attnlab.testing.build import layout, make
 from attnlab.worlds.geometry import clearance
 
+Step = tuple[int, bool, tuple[float, float, float], list[float], list[Blob]]  # cycles, crashed, pose, sonar, blobs
 
-def drive(simulator, steps: int, seed: int = 2) -> list:
+
+def drive(simulator: Simulator, steps: int, seed: int = 2) -> list[Step]:
     """What is sensed on a random drive."""
-    draw, trace = Random(seed), []
+    draw = Random(seed)
+    trace: list[Step] = []
     for _ in range(steps):
         if simulator.cycle > 1000:
             break

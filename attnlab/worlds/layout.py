@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import combinations
 from math import atan2, hypot
+from typing import Any, Literal, TypedDict
 
 from attnlab import registry
 from attnlab.errors import ConfigError
@@ -47,28 +48,39 @@ class StartParams:
 @dataclass
 class SourceParams:
     """How much the sources of a world give; what is left out is as the reading has it."""
-    supply: str | None = setting(None, "endless, depletion or respawn; reading.food_supply if left out",
-                                 choices=("endless", "depletion", "respawn"))
+    supply: Literal["endless", "depletion", "respawn"] | None = setting(
+        None, "endless, depletion or respawn; reading.food_supply if left out")
     portions: int | None = setting(None, "meals in a source; reading.food_portions if left out", low=1)
     respawn_cycles: int | None = setting(None, "reading.food_respawn_cycles if left out", unit="mc", low=1)
 
-    def of_reading(self) -> dict:
+    def of_reading(self) -> dict[str, Any]:
         """The settings of the reading that this world changes."""
         named = {"food_supply": self.supply, "food_portions": self.portions, "food_respawn_cycles": self.respawn_cycles}
         return {name: value for name, value in named.items() if value is not None}
 
 
-def start_region(start: StartParams, width_m: float, depth_m: float) -> dict:
+class StartFields(TypedDict):
+    """Those of a :class:`Layout` that say where the robot may start."""
+    start: tuple[float, float, float, float]
+    start_clearance_m: float
+    fixed_start: tuple[float, float, float] | None
+
+
+def start_region(start: StartParams, width_m: float, depth_m: float) -> StartFields:
     """The start fields of a :class:`Layout` from their settings."""
     x_max = width_m if start.x_max_m is None else start.x_max_m
     y_max = depth_m if start.y_max_m is None else start.y_max_m
     if not (0 <= start.x_min_m <= x_max <= width_m and 0 <= start.y_min_m <= y_max <= depth_m):
         raise ConfigError("start", f"the region [{start.x_min_m}, {x_max}] x [{start.y_min_m}, {y_max}] is not within "
                           f"the floor of {width_m} x {depth_m} m")
-    if start.fixed is not None and len(start.fixed) != 3:
-        raise ConfigError("start.fixed", f"expected [x, y, heading], got {start.fixed}")
+    fixed = None
+    if start.fixed is not None:
+        if len(start.fixed) != 3:
+            raise ConfigError("start.fixed", f"expected [x, y, heading], got {start.fixed}")
+        x, y, heading = start.fixed
+        fixed = x, y, heading
     return {"start": (start.x_min_m, x_max, start.y_min_m, y_max), "start_clearance_m": start.clearance_m,
-            "fixed_start": tuple(start.fixed) if start.fixed else None}
+            "fixed_start": fixed}
 
 
 @register("world", "layout")
@@ -84,20 +96,22 @@ class WrittenLayout(World):
         start: StartParams = setting(StartParams(), "where the robot may start")
         sources: SourceParams = setting(SourceParams(), "how much food and water there is")
 
+    params: Params
+
     def build(self, seed: int) -> Layout:
         """The checked layout; ConfigError if a box is outside, two overlap, or no start is free."""
         p = self.params
         boxes = [Solid(b.kind, b.x_m, b.y_m, b.size_m, b.size_m, b.yaw_rad) for b in p.boxes]
         inner = [Solid("wall", (w.x1_m + w.x2_m) / 2, (w.y1_m + w.y2_m) / 2, hypot(w.x2_m - w.x1_m, w.y2_m - w.y1_m),
                        w.thickness_m, atan2(w.y2_m - w.y1_m, w.x2_m - w.x1_m)) for w in p.walls]
-        for group, solids in (("boxes", boxes), ("walls", inner)):
-            for i, solid in enumerate(solids):
+        for group, given in (("boxes", boxes), ("walls", inner)):
+            for i, solid in enumerate(given):
                 if any(not (-1e-9 <= x <= p.width_m + 1e-9 and -1e-9 <= y <= p.depth_m + 1e-9)
                        for x, y in solid.corners()):
                     raise ConfigError(f"{group}[{i}]", f"the {solid.kind} at ({solid.x_m}, {solid.y_m}) reaches "
                                       f"outside the floor of {p.width_m} x {p.depth_m} m")
-        kinds = {"obstacle", "food", "water"} | {spec.cls.source for spec in registry.parts.values()
-                                                 if isinstance(getattr(spec.cls, "source", None), str)}
+        sought = (getattr(spec.cls, "source", None) for spec in registry.parts.values())
+        kinds = {"obstacle", "food", "water", *(kind for kind in sought if isinstance(kind, str))}
         for i, box in enumerate(p.boxes):
             close = get_close_matches(box.kind, kinds, n=1, cutoff=0.85)
             if close and box.kind not in kinds:

@@ -36,6 +36,8 @@ class RandomLayout(World):
         sources: SourceParams = setting(SourceParams(), "how much food and water there is")
         tries: int = setting(200, "layouts tried before giving up", low=1, high=100_000)
 
+    params: Params
+
     def build(self, seed: int) -> Layout:
         """The layout of this seed; ConfigError if none of ``tries`` is solvable."""
         p = self.params
@@ -54,7 +56,8 @@ class RandomLayout(World):
 
     def _scatter(self, kinds: list[str], draw: Random) -> list[Solid] | None:
         """Cubes that do not overlap, or None if one found no place in 50 tries."""
-        p, boxes = self.params, []
+        p = self.params
+        boxes: list[Solid] = []
         for kind in kinds:
             for _ in range(50):
                 x = draw.uniform(p.size_m / 2, p.width_m - p.size_m / 2)
@@ -70,8 +73,10 @@ class RandomLayout(World):
 def solvable(layout: Layout) -> bool:
     """Can the robot get from any free start to within reach of every source? (Flood fill over a 0.1 m grid.)"""
     nx, ny = int(layout.width_m / CELL_M), int(layout.depth_m / CELL_M)
-    def centre(cell):
+
+    def centre(cell: tuple[int, int]) -> tuple[float, float]:
         return (cell[0] + 0.5) * CELL_M, (cell[1] + 0.5) * CELL_M
+
     free = {(i, j) for i in range(nx) for j in range(ny)
             if clearance(*centre((i, j)), layout.solids) >= PASSAGE_M}
     x_min, x_max, y_min, y_max = layout.start
@@ -79,7 +84,8 @@ def solvable(layout: Layout) -> bool:
               and clearance(*centre(cell), layout.solids) >= layout.start_clearance_m}
     if not starts:
         return False
-    seen, queue = set(), deque([min(starts)])
+    seen: set[tuple[int, int]] = set()
+    queue = deque([min(starts)])
     while queue:
         cell = queue.popleft()
         if cell in seen:
