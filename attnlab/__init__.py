@@ -1,3 +1,20 @@
 """attnlab: learn where to look. Adaptive attention and curiosity for behaviour-based robots (Di Nocera et al. 2014)."""
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from attnlab import plot
+    from attnlab.api import compose, load, simulate, sweep
+
 __version__ = "0.1.0"
+__all__ = ["__version__", "compose", "load", "plot", "simulate", "sweep"]
+
+
+def __getattr__(name: str) -> Any:
+    """compose, simulate, sweep and load, of :mod:`attnlab.api`, and :mod:`attnlab.plot`: imported when asked for."""
+    if name == "plot":
+        return import_module("attnlab.plot")
+    if name in __all__:
+        return getattr(import_module("attnlab.api"), name)
+    raise AttributeError(f"attnlab has no {name}; it has {', '.join(__all__)}")

@@ -7,7 +7,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from attnlab import registry
 from attnlab.errors import ConfigError
@@ -19,7 +19,7 @@ from attnlab.worlds.base import Layout
 @dataclass
 class ValidationSettings:
     simulator: str | None = setting(None, "validate on another simulator than the one trained on")
-    drive: str | None = setting(None, "drive of the pybullet that validates", choices=(None, "kinematic", "wheels"))
+    drive: Literal["kinematic", "wheels"] | None = setting(None, "drive of the pybullet that validates")
 
 
 @dataclass
@@ -34,8 +34,8 @@ class RunSettings:
     study: str = setting("main", "folder of the results inside outputs", cosmetic=True)
     outputs: str = setting("outputs", "root folder of all results", cosmetic=True)
     fresh: bool = setting(False, "run again what is complete already", cosmetic=True)
-    record: str = setting("last", "episodes whose cycles are stored: the last one, all of validation, all, none",
-                          choices=("none", "last", "validation", "all"))
+    record: Literal["none", "last", "validation", "all"] = setting(
+        "last", "episodes whose cycles are stored: the last one, all of validation, all, none")
     check_identities: bool = setting(True, "check the bookkeeping on every cycle")
     picture: bool = setting(True, "draw the study's figures at its end", cosmetic=True)
     report: bool = setting(True, "build the study's report at its end", cosmetic=True)

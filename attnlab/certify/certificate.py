@@ -9,8 +9,8 @@ from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 from attnlab.certify.verdict import judge
+from attnlab.cli.calls import composed
 from attnlab.errors import ConfigError
-from attnlab.paths import conf_dir
 from attnlab.tables.code import commit, versions
 
 Tick = Callable[[], None]
@@ -27,24 +27,17 @@ def quiet(poses: int, episodes: int) -> Iterator[list[Tick]]:
     yield [lambda: None, lambda: None]
 
 
-def compose(world: str, seed: int, simulator: str, episodes: int, overrides: Sequence[str], **more: Any) -> dict:
+def compose(world: str, seed: int, simulator: str, episodes: int, overrides: Sequence[str], **more: Any
+            ) -> dict[str, Any]:
     """The shipped default config with these changes, as plain data."""
-    from hydra import compose, initialize_config_dir
-    from hydra.errors import HydraException
-    from omegaconf import OmegaConf
-    from omegaconf.errors import OmegaConfBaseException
-
-    from attnlab.cli.store import store_options
-    store_options()
     try:
-        with initialize_config_dir(str(conf_dir()), version_base="1.3"):
-            config = compose("config", [f"world={world}", f"simulator={simulator}", f"seed={seed}", "record=all",
-                                        f"train_episodes={max(1, episodes)}",
-                                        f"validation_episodes={(episodes + 1) // 2}", *overrides])
-    except (HydraException, OmegaConfBaseException) as cause:
-        raise ConfigError("certify", " ".join(str(cause).split()), "Settings are name=value, worlds go to --worlds") \
-            from None
-    return {**OmegaConf.to_container(config, resolve=True), **more}
+        config = composed([f"world={world}", f"simulator={simulator}", f"seed={seed}", "record=all",
+                           f"train_episodes={max(1, episodes)}", f"validation_episodes={(episodes + 1) // 2}",
+                           *overrides])
+    except ConfigError as error:
+        raise ConfigError(error.setting, error.problem, f"{error.hint}. Settings are name=value, worlds go to --worlds"
+                          ) from None
+    return {**config, **more}
 
 
 def certify(worlds: Sequence[str], poses: int, episodes: int, seeds: int, overrides: Sequence[str],

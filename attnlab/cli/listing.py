@@ -15,6 +15,7 @@ from attnlab.errors import ConfigError, describe, nearest
 from attnlab.groups import GROUPS
 from attnlab.loading import config_folders
 from attnlab.paths import PACKAGE, conf_dir
+from attnlab.settings import choices_of
 
 
 def short(path: str) -> str:
@@ -50,6 +51,8 @@ def named_configs() -> dict[tuple[str, str], Path]:
 
 def kind_of(hint: typing.Any) -> str:
     """A type as one reads it: ``float``, ``list[float]``, ``str or none``."""
+    if choices_of(hint):
+        return "str or none" if type(None) in typing.get_args(hint) else "str"
     if isinstance(hint, type) and not typing.get_args(hint):
         return hint.__name__
     return str(hint).replace("typing.", "").replace(" | None", " or none")
@@ -68,7 +71,7 @@ def parameters(params: type, prefix: str = "") -> Iterable[str]:
         limits = [f"at least {meta['low']}" if meta.get("low") is not None else "",
                   f"more than {meta['above']}" if meta.get("above") is not None else "",
                   f"at most {meta['high']}" if meta.get("high") is not None else "",
-                  "one of " + ", ".join(map(str, meta["choices"])) if meta.get("choices") else ""]
+                  "one of " + ", ".join(map(str, choices)) if (choices := choices_of(hints[field.name])) else ""]
         unit = f" {meta['unit']}" if meta.get("unit") else ""
         limits = f" ({', '.join(filter(None, limits))})" if any(limits) else ""
         yield f"  {prefix}{field.name}: {kind_of(hints[field.name])} = {value}{unit}{limits}"

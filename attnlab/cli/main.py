@@ -32,10 +32,10 @@ def _main(argv: Sequence[str]) -> int:
     load_all()
     for file, cause in registry.failures.values():
         print(f"attnlab: {file} did not load and is left out: {describe(cause)}", file=sys.stderr)
-    return _hydra(arguments)
+    return hydra_application(arguments)
 
 
-def _hydra(arguments: list[str]) -> int:
+def hydra_application(arguments: list[str]) -> int:
     """Run Hydra's application on these arguments."""
     os.environ["HYDRA_FULL_ERROR"] = "1"  # raise, so that errors can be explained
     import hydra

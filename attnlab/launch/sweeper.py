@@ -10,6 +10,7 @@ import itertools
 import sys
 import types
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 from hydra.core.config_store import ConfigStore
@@ -39,9 +40,10 @@ NAMESPACE = "hydra_plugins.attnlab"
 class StudySweeper(Sweeper):
     """Expands a sweep to jobs and hands them to :mod:`attnlab.launch.drive`.
 
-    ``exit_code`` is what the process should end with: Hydra's main returns nothing.
+    ``exit_code`` is what the process should end with, ``folder`` the study's: Hydra's main returns nothing.
     """
     exit_code = 0
+    folder = Path()
 
     def __init__(self, params: dict[str, str] | None = None):
         self.params = params
@@ -53,6 +55,7 @@ class StudySweeper(Sweeper):
         from attnlab.launch.drive import drive
         jobs = self.jobs(arguments)
         check_place(jobs)
+        type(self).folder = jobs[0].folder.parent
         type(self).exit_code = drive(jobs, arguments)
 
     def jobs(self, arguments: Sequence[str]) -> list[Job]:
