@@ -1,11 +1,7 @@
 """REST: a behaviour with a need of its own. Delete this file and nothing else changes; copy it to start your own."""
 from dataclasses import dataclass
 
-from attnlab.behaviours.base import Behaviour
-from attnlab.equations import need_reward
-from attnlab.needs.base import Need
-from attnlab.registry import register
-from attnlab.settings import setting
+from attnlab.api import Behaviour, Need, need_reward, register, setting
 
 
 @register("behaviours", "rest")

@@ -2,10 +2,7 @@
 
 from dataclasses import dataclass
 
-from attnlab.behaviours.base import Behaviour
-from attnlab.equations import avoid_reward
-from attnlab.registry import register
-from attnlab.settings import setting
+from attnlab.api import Behaviour, avoid_reward, register, setting
 
 
 @register("behaviours", "patrol")

@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass
 
-from attnlab.curiosity.base import Curiosity
-from attnlab.registry import register
-from attnlab.settings import setting
+from attnlab.api import Curiosity, register, setting
 
 
 @register("curiosity", "weekly")
