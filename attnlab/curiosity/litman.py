@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections import deque
 
 from attnlab.curiosity.base import Curiosity
-from attnlab.equations import liking, wanting
+from attnlab.equations import liking
 from attnlab.registry import register
 
 
 @register("curiosity", "litman")
 class Litman(Curiosity):
-    """Eqs (11) and (12) of Di Nocera et al. 2014, after Litman 2005 (Cognition & Emotion 19:793).
+    """Eqs (11), as in every model that has no wanting of its own, and (12) of Di Nocera et al. 2014, after Litman 2005
+    (Cognition & Emotion 19:793).
 
     The memory is the window of the behaviour's last NV_tot percepts (``reading.novelty_window``); whether the current
     one counts is ``reading.novelty_counts_current``. Draws nothing at random.
@@ -19,9 +20,6 @@ class Litman(Curiosity):
 
     def memory(self) -> deque[int]:
         return deque(maxlen=self.reading.novelty_window)
-
-    def wanting(self, memory: deque[int], energy: float) -> float:
-        return wanting(energy, self.reading.energy_well, self.reading.energy_max)
 
     def liking(self, memory: deque[int], percept: int) -> float:
         r, visits = self.reading, memory.count(percept)

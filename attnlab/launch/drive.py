@@ -7,7 +7,6 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from attnlab.clusters.base import Cluster
 from attnlab.config import RunSettings
 from attnlab.launch.jobs import OTHER_CODE, Job, split
 from attnlab.launch.progress import Display
@@ -62,7 +61,7 @@ def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> StudyFile:
 
 def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
     """Run what is missing; the failed ones and why."""
-    cluster: Cluster = make("cluster", todo[0].settings.cluster, None)
+    cluster = make("cluster", todo[0].settings.cluster, None)
     episodes = sum(job.episodes for job in todo)
     print(f"{folder}: {len(todo)} run{'s' * (len(todo) > 1)}, {episodes:,} episodes, "
           f"{cluster.at_once(todo)} at a time", flush=True)

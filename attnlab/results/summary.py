@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from attnlab.results.load import Study
 
-FORMS = {"early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "hunger": ".0f", "thirst": ".0f",
-         "energy": ".0f", "safety": ".2f"}
+FORMS = {"early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "energy": ".0f", "safety": ".2f"}
+
+
+def needs_in(columns: Iterable[str]) -> list[str]:
+    """Names of the needs that the table ``episodes`` tells of: hunger, thirst, and those that plugins bring."""
+    columns = list(columns)
+    return [name for column in columns if column.endswith("_mean") and (name := column[:-5]) not in ("energy", "safety")
+            and f"{name}_max" in columns and f"{name}_min" not in columns]
 
 
 def summary_frame(study: Study, named: Mapping[str, str]):
@@ -35,16 +41,17 @@ def summary_frame(study: Study, named: Mapping[str, str]):
             "early": train.loc[train["episode"] < half, "survival"].mean(),
             "late": train.loc[train["episode"] >= half, "survival"].mean(),
             "validation": valid["survival"].mean() if len(valid) else float("nan"),
-            "crashed": (shown["death"] == "crash").mean(), "hunger": shown["hunger_mean"].mean(),
-            "thirst": shown["thirst_mean"].mean(), "energy": shown["energy_mean"].mean(),
-            "safety": shown["safety_mean"].mean(),
+            "crashed": (shown["death"] == "crash").mean(),
+            **{need: shown[f"{need}_mean"].mean() for need in needs_in(shown.columns)},
+            "energy": shown["energy_mean"].mean(), "safety": shown["safety_mean"].mean(),
             "activations": " ".join(f"{n:.0f}" if n == n else "-" for n in acts)})
     return pd.DataFrame(rows)
 
 
 def shown(row: Mapping[str, Any]) -> list[str]:
     """A row of the frame as texts; what no run has is a dash."""
-    return ["-" if value != value else format(value, FORMS.get(key, "")) for key, value in row.items()]
+    return ["-" if value != value else value if isinstance(value, str) else
+            format(value, FORMS.get(key, "" if isinstance(value, int) else ".0f")) for key, value in row.items()]
 
 
 def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path], hints: dict[str, str]) -> None:
@@ -58,10 +65,10 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
     table = Table(title=Text(f"{study.path.name}: means over seeds"), title_justify="left", box=box.SIMPLE_HEAD,
                   padding=(0, 1), collapse_padding=True, pad_edge=False)
     names = list(study.behaviours["behaviour"].unique())
-    heads = {"condition": "condition", "runs": "runs", "early": "survival\nearly", "late": "\nlate",
-             "validation": "\nvalid.", "crashed": "crashed", "hunger": "hunger", "thirst": "thirst",
-             "energy": "energy", "safety": "safety", "activations": "activations\n" + " ".join(names)}
-    for key, head in heads.items():
+    heads = {"early": "survival\nearly", "late": "\nlate", "validation": "\nvalid.",
+             "activations": "activations\n" + " ".join(names)}
+    for key in frame.columns:
+        head = heads.get(key, key)
         table.add_column(head, justify="left" if key in ("condition", "activations") else "right", overflow="fold",
                          no_wrap=key != "condition")
     for row in frame.to_dict("records"):

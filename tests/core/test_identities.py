@@ -9,15 +9,16 @@ import pytest
 from attnlab.robot.episodes import play_run
 from attnlab.robot.identities import IdentityError, check_balance, check_clock, check_safety
 from attnlab.robot.plan import RunPlan
-from tests.configs import config
+from attnlab.testing import config
+from attnlab.testing.build import node
 
 
 @pytest.fixture(scope="module", params=["inferred", "table4"])
 def recorded(request):
     """A run with all its cycles stored: (tables as frames, experiment)."""
-    reading = {} if request.param == "inferred" else "table4"
-    changes = {} if request.param == "inferred" else {"max_cycles": 1500}
-    experiment = RunPlan(config(reading=reading, record="all", train_episodes=12, validation_episodes=3, **changes))
+    reading = node("reading", request.param)
+    experiment = RunPlan(config(how=reading, record="all", train_episodes=12, validation_episodes=3,
+                                max_cycles=reading["max_cycles"]))
     tables, _ = play_run(experiment)
     return {name: pd.DataFrame(table) for name, table in tables.items()}, experiment
 

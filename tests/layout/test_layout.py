@@ -57,8 +57,8 @@ def modules() -> dict[str, Path]:
 def imports(file: Path, known: dict[str, Path]) -> set[str]:
     """Modules of the package that a file imports, wherever in it, but for types alone."""
     tree = ast.parse(file.read_text())
-    typed = {id(node) for branch in ast.walk(tree) if isinstance(branch, ast.If) and "TYPE_CHECKING" in ast.dump(branch.test)
-             for node in ast.walk(branch)}
+    branches = [node for node in ast.walk(tree) if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)]
+    typed = {id(node) for branch in branches for node in ast.walk(branch)}
     found = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and node.module and id(node) not in typed:
@@ -131,5 +131,6 @@ def test_no_file_is_long():
 def test_nothing_heavy_is_imported_by(arguments):
     text = ("import sys\nfrom attnlab.cli.main import main\n"
             f"main({arguments!r})\nprint('HEAVY', [m for m in {HEAVY!r} if m in sys.modules])")
-    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, cwd=ROOT, timeout=60, check=True)
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, cwd=ROOT, timeout=60,
+                          check=True)
     assert done.stdout.strip().endswith("HEAVY []"), done.stdout[-300:]

@@ -47,11 +47,12 @@ def greedy_but(epsilon):
     return make("exploration", "epsilon_greedy", epsilon=epsilon)
 
 
-@pytest.mark.parametrize(("name", "epsilon", "alpha"), [
-    ("q_learning", 1.0, 0.5), ("double_q", 1.0, 0.5), ("smdp_q", 1.0, 0.5), ("q_lambda", 0.3, 0.2)])
-def test_off_policy_learners_reach_the_optimal_values(name, epsilon, alpha):
-    q = learn(name, greedy_but(epsilon), 1500, alpha=alpha)
-    for row, best in zip(q, optimal(smdp=name == "smdp_q"), strict=True):
+@pytest.mark.parametrize(("name", "epsilon", "alpha", "update"), [
+    ("q_learning", 1.0, 0.5, "decision"), ("q_learning", 1.0, 0.5, "smdp"), ("double_q", 1.0, 0.5, "decision"),
+    ("q_lambda", 0.3, 0.2, "decision")])
+def test_off_policy_learners_reach_the_optimal_values(name, epsilon, alpha, update):
+    q = learn(name, greedy_but(epsilon), 1500, alpha=alpha, how={"q_update": update})
+    for row, best in zip(q, optimal(smdp=update == "smdp"), strict=True):
         assert row == pytest.approx(best, abs=1e-3)
 
 
@@ -65,11 +66,6 @@ def test_on_policy_learners_reach_the_best_values_under_their_exploration(epsilo
         assert first == pytest.approx(best, abs=1e-3)
         assert second == pytest.approx(best, abs=0.3)
     assert max(optimal()[0]) - max(exact[0]) > 0.5  # far from what an off-policy learner finds
-
-
-def test_smdp_q_is_q_learning_under_the_reading_smdp():
-    walk = make("exploration", "epsilon_greedy", epsilon=0.5)
-    assert learn("smdp_q", walk, 50) == learn("q_learning", walk, 50, how={"q_update": "smdp"})
 
 
 def test_q_lambda_without_traces_is_q_learning():

@@ -11,11 +11,13 @@ import pytest
 
 from attnlab.robot.episodes import play_run
 from attnlab.robot.plan import RunPlan
-from tests.configs import config, node
+from attnlab.testing import config
+from attnlab.testing.build import node
 
 
 def episodes(**changes) -> pd.DataFrame:
-    tables, _ = play_run(RunPlan(config(check_identities=False, record="none", **changes)))
+    settings = {"check_identities": False, "record": "none", "max_cycles": 1150, **changes}
+    tables, _ = play_run(RunPlan(config(**settings)))
     return pd.DataFrame(tables["episodes"])
 
 
@@ -52,13 +54,13 @@ def test_design(simulator):
 
 @pytest.mark.long
 def test_design_table4():
-    check_design(300, reading="table4", max_cycles=1500)
+    check_design(300, how=node("reading", "table4"), max_cycles=1500)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("world", ["open", "cluttered", "random"])
 def test_other_worlds_can_be_survived(world):
-    frame = fixed_avoid(4, 300, world=world)
+    frame = fixed_avoid(4, 300, world=node("world", world))
     assert frame["survival"].mean() > 0.9
     assert crashed(frame) < 0.03
 

@@ -12,7 +12,7 @@ from attnlab.robot.episodes import play_run
 from attnlab.robot.folder import run_to_folder
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.schema import TABLES
-from tests.configs import config
+from attnlab.testing import config
 
 INFO = {"run": "a", "key": "k", "overrides": [], "swept": {}}
 
@@ -59,5 +59,5 @@ def test_nobody_outside_is_disturbed():
 def test_adding_a_behaviour_shifts_nobodys_randomness():
     """REST that is never released leaves the poses and the first choices of the others as they were."""
     plain = RunPlan(config()).start_pose("train", 1)
-    more = RunPlan(config(behaviours=["avoid", "eat", "drink", "rest"])).start_pose("train", 1)
+    more = RunPlan(config(behaviours=("avoid", "eat", "drink", "rest"))).start_pose("train", 1)
     assert plain == more

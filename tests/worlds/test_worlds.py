@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from attnlab import registry
 from attnlab.errors import ConfigError
 from attnlab.streams import stream
+from attnlab.testing.build import node
 from attnlab.worlds.geometry import Solid, clearance, distance, overlap
 from attnlab.worlds.random import ARRIVAL_M, PASSAGE_M, solvable
-from tests.configs import node
 
 
 def build(name: str, seed: int = 0, **changes):
