@@ -14,6 +14,7 @@ asks for it by name; the others go on.
 from __future__ import annotations
 
 import dataclasses
+import importlib.util
 import inspect
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -143,11 +144,16 @@ def find(group: str, option: str) -> Spec | None:
 
 
 def get(group: str, node: Mapping[str, Any], where: str) -> Spec:
-    """The part that a config node names."""
+    """The part that a config node names. Raises ConfigError if there is none, or if a package it ``requires`` is not
+    installed."""
     name = node.get("part") or node.get("name")
     spec = parts.get((group, str(name)))
     if spec is None:
         raise unknown(group, str(name), where)
+    for package in getattr(spec.cls, "requires", ()):
+        if importlib.util.find_spec(package) is None:
+            raise ConfigError(f"{where}={name}", f"needs the package {package}, which is not installed here",
+                              f"pip install {package}, or choose another {group}")
     return spec
 
 

@@ -58,6 +58,7 @@ class PyBullet(Simulator):
         wheel_force_n: float = setting(40.0, "largest torque of a wheel motor", unit="N m", above=0)
 
     params: Params
+    requires = ("pybullet",)
 
     def __init__(self, params: Params, context: SimulatorContext):
         super().__init__(params, context)
