@@ -6,28 +6,14 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from attnlab.cycle import Agent, machine_cycle
 from attnlab.errors import PartError
-from attnlab.exploration.base import Exploration
+from attnlab.robot.episode import run_episode
 from attnlab.robot.guards import diagnose
 from attnlab.robot.plan import RunPlan
-from attnlab.robot.record import Moment, Recorder, Tables
+from attnlab.robot.record import Recorder, Tables
+from attnlab.robot.rehearsal import Rehearsal
 
 Progress = Callable[[int, int], None]  # (episodes done, cycles done)
-
-
-def run_episode(agent: Agent, exploration: Exploration, start: tuple[float, float, float], learning: bool
-                ) -> tuple[list[Moment], str | None, list[float]]:
-    """One episode from ``start`` (m, m, rad): its history, the cause of death or None, each behaviour's penalty."""
-    agent.start(*start)
-    simulator, body = agent.simulator, agent.body
-    history, death = [(0, 0, body.energy, *body.values)], None
-    while death is None and simulator.cycle < agent.max_cycles:
-        active, death = machine_cycle(agent, exploration, learning)
-        history.append((simulator.cycle, active, body.energy, *body.values))
-    body.dead = death is not None
-    penalties = agent.died(death, learning) if death else [0.0] * len(agent.attentions)
-    return history, death, penalties
 
 
 def play_run(plan: RunPlan, run: str = "run", swept: Mapping[str, Any] | None = None,
@@ -40,7 +26,8 @@ def play_run(plan: RunPlan, run: str = "run", swept: Mapping[str, Any] | None = 
     done = cycles = 0
     phases = [("train", s.train_episodes), ("validation", s.validation_episodes)]
     last = max(i for i, (_, episodes) in enumerate(phases) if episodes)
-    plan.prepare(folder)
+    with Rehearsal(plan, folder) as play:
+        plan.prepare(play)
     simulator, agent = plan.simulator(), None
     try:
         agent = plan.agent(simulator)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import dataclasses
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from attnlab import registry
@@ -16,7 +15,7 @@ from attnlab.curiosity.base import CuriosityContext
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
-from attnlab.learners.base import LearnerContext
+from attnlab.learners.base import LearnerContext, Rehearse
 from attnlab.reading import Reading
 from attnlab.robot.guards import blame
 from attnlab.settings import build
@@ -57,12 +56,10 @@ class RunPlan:
         plan.layout, plan.found = plan._layout(), {}
         return plan
 
-    def prepare(self, folder: Path | None) -> None:
-        """What a learner does before the run; it may keep files in ``folder``."""
-        from attnlab.robot.rehearsal import Rehearsal
+    def prepare(self, play: Rehearse) -> None:
+        """What a learner does before the run."""
         spec, params = registry.build_params("learner", self.settings.learner, "learner")
-        with Rehearsal(self, folder) as play:
-            self.found = spec.cls.prepare(params, play)
+        self.found = spec.cls.prepare(params, play)
 
     def _layout(self) -> Layout:
         try:

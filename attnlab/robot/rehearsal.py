@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from attnlab.config import COSMETIC
 from attnlab.learners.base import Outcome
 from attnlab.loading import load_all, plugin_hashes
-from attnlab.robot.episodes import run_episode
+from attnlab.robot.episode import run_episode
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.files import write_bytes
 
