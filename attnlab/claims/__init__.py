@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from pathlib import Path
+from typing import Any
 
 from attnlab.errors import ConfigError, nearest
 
@@ -21,7 +22,7 @@ def claims_folders() -> list[Path]:
     return [folder for folder in (conf_dir() / "claims", *(f / "claims" for f in plugin_folders())) if folder.is_dir()]
 
 
-def claims_path(name: str) -> Path:
+def claims_path(name: Any) -> Path:
     """The file of claims ``name``: a name (dinocera2014) or a path to a .yaml. Raises ConfigError if there is none."""
     if not isinstance(name, str) or not name.strip():
         raise ConfigError("claims_file", f"expected the name or the path of a claims file, got {name!r}")

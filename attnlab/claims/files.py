@@ -3,20 +3,33 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
 from attnlab import registry
 from attnlab.claims import claims_path
 from attnlab.errors import ConfigError, nearest
 from attnlab.loading import load_all
 from attnlab.measures.base import Measure
+from attnlab.results.conditions import Runs
 from attnlab.settings import build, setting
 
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
 ROLES = ("treatment", "control")
-TESTS = ("paired", "level", "not_lower", "permutation")
-DIRECTIONS = ("higher", "lower", "at_least", "at_most", "about")
+DIRECTIONS = ("higher", "lower", "at_least", "at_most")
+
+
+@runtime_checkable
+class Permuted(Protocol):
+    """A measure that can be judged by a permutation test."""
+
+    def null(self, runs: Runs, draws: int, seed: int) -> npt.NDArray[np.float64]:
+        """What it would be if nothing of interest mattered, shape (draws,)."""
 
 
 @dataclass
@@ -30,17 +43,19 @@ class Rules:
 @dataclass
 class Role:
     label: str = setting("", "what it is called")
-    where: dict = setting({}, "settings of its runs, e.g. {curiosity: litman}")
+    where: dict[str, Any] = setting({}, "settings of its runs, e.g. {curiosity: litman}")
 
 
 @dataclass
 class Part:
     """One comparison. All numbers in ``unit``."""
     measure: Any = setting(None, "{name: ..., and its parameters}")
-    test: str = setting("paired", "paired: treatment - control by seed; level: one role against reference; not_lower: "
-                        "paired, may be lower by margin; permutation: levels exchanged", choices=TESTS)
-    direction: str = setting("about", "claimed side of the reference", choices=DIRECTIONS)
-    role: str = setting("treatment", "whose level", choices=ROLES)
+    test: Literal["paired", "level", "not_lower", "permutation"] = setting(
+        "paired", "paired: treatment - control by seed; level: one role against reference; not_lower: paired, may be "
+        "lower by margin; permutation: levels exchanged")
+    direction: Literal["higher", "lower", "at_least", "at_most", "about"] = setting(
+        "about", "claimed side of the reference")
+    role: Literal["treatment", "control"] = setting("treatment", "whose level")
     reference: float = setting(0.0, "what the direction is against")
     number: float | None = setting(None, "what the paper found")
     tolerance: float | None = setting(None, "how far from the number counts as the same", low=0)
@@ -49,7 +64,7 @@ class Part:
     counts: bool = setting(True, "false: shown, but no part of the verdict")
     note: str = setting("", "shown beside it")
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.measure is None:
             raise ConfigError("measure", "is missing", "Write measure: {name: survival}")
         if self.unit is None:
@@ -58,7 +73,7 @@ class Part:
             raise ConfigError("tolerance" if self.tolerance is None else "number",
                               "is missing", "number and tolerance belong together")
         if self.test in ("paired", "level") and self.direction == "about" and self.number is None:
-            raise ConfigError("direction", "is missing", f"One of {', '.join(DIRECTIONS[:4])}, or a number to be near")
+            raise ConfigError("direction", "is missing", f"One of {', '.join(DIRECTIONS)}, or a number to be near")
         if self.test == "not_lower" and self.margin is None:
             raise ConfigError("margin", "is missing", "How much lower still counts as not lower?")
 
@@ -70,7 +85,7 @@ class Claim:
     says: str = setting("", "what it says there")
     parts: list[Part] = setting([], "comparisons; all that count must hold")
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("title", "where", "says"):
             if not getattr(self, name).strip():
                 raise ConfigError(name, "is missing")
@@ -82,9 +97,9 @@ class Claim:
 class _File:
     title: str = setting("", "of the paper or the study")
     source: str = setting("", "where it was published")
-    roles: dict = setting({}, "treatment and control")
+    roles: dict[str, Any] = setting({}, "treatment and control")
     rules: Rules = setting(Rules(), "how verdicts are reached")
-    claims: dict = setting({}, "by id")
+    claims: dict[str, Any] = setting({}, "by id")
 
 
 @dataclass
@@ -132,7 +147,7 @@ def load_claims(name: str) -> Claims:
                   claims, measures)
 
 
-def _roles(node: dict, where: str) -> dict[str, Role]:
+def _roles(node: Mapping[str, Any], where: str) -> dict[str, Role]:
     for name in node:
         if name not in ROLES:
             raise ConfigError(f"{where}.roles.{name}", "no such role", nearest(str(name), ROLES))
@@ -148,10 +163,10 @@ def _roles(node: dict, where: str) -> dict[str, Role]:
 
 def _measure(part: Part, where: str) -> Measure:
     node = {"name": part.measure} if isinstance(part.measure, str) else part.measure
-    measure = registry.make("measure", node, None, f"{where}.measure")
+    measure: Measure = registry.make("measure", node, None, f"{where}.measure")
     if measure.unit != part.unit:
         raise ConfigError(f"{where}.unit", f"is '{part.unit}', but the measure '{node['name']}' is in "
                           f"'{measure.unit}'")
-    if part.test == "permutation" and not hasattr(measure, "null"):
+    if part.test == "permutation" and not isinstance(measure, Permuted):
         raise ConfigError(f"{where}.test", f"the measure '{node['name']}' has no permutation test (no method null)")
     return measure

@@ -6,21 +6,22 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from attnlab.claims.files import Claim, Claims, Part
+from attnlab.claims.files import Claim, Claims, Part, Permuted, Rules
+from attnlab.claims.findings import WORST_FIRST, Finding
 from attnlab.measures.base import CannotMeasure, Measure
 from attnlab.results.conditions import Conditions, Runs
 from attnlab.stats.seeds import Interval, bootstrap_interval, effect_size, holm, mean, paired, sign_flip_p
 
-REPRODUCED, DIRECTION, NOT, CONTRADICTED, UNTESTABLE = VERDICTS = (
-    "reproduced", "direction only", "not reproduced", "contradicted", "untestable")
+REPRODUCED, DIRECTION, NOT, CONTRADICTED, UNTESTABLE = VERDICTS = tuple(Finding)
 NOTHING = Interval(float("nan"), float("nan"), float("nan"))
+Cache = dict[tuple[str, str], Mapping[int, float] | CannotMeasure]  # (role, measure) -> what was measured
 
 
 @dataclass
 class PartVerdict:
     """The outcome of one comparison. ``value``: mean with interval of the difference or level, in the part's unit."""
     part: Part
-    verdict: str
+    verdict: Finding
     reason: str
     value: Interval = NOTHING
     effect: float = float("nan")
@@ -35,7 +36,7 @@ class Verdict:
     number of claims."""
     id: str
     claim: Claim
-    verdict: str
+    verdict: Finding
     reason: str
     parts: list[PartVerdict]
     p: float
@@ -50,13 +51,13 @@ class Verdict:
     @property
     def holds(self) -> bool:
         """Is the claimed direction there beyond the uncertainty?"""
-        return self.verdict in (REPRODUCED, DIRECTION)
+        return self.verdict.holds
 
 
 def judge(claims: Claims, conditions: Conditions, stratum: Mapping[str, str] | None = None) -> list[Verdict]:
     """Verdicts on all claims from the runs of one combination of the other settings (``stratum``: name -> text)."""
     roles = {name: conditions.matching(role.where, stratum or {})[0] for name, role in claims.roles.items()}
-    cache: dict[tuple[str, str], object] = {}
+    cache: Cache = {}
     verdicts = []
     for key, claim in claims.claims.items():
         parts = [_part(claims, part, measure, roles, cache) for part, measure in
@@ -67,10 +68,10 @@ def judge(claims: Claims, conditions: Conditions, stratum: Mapping[str, str] | N
     return verdicts
 
 
-def _part(claims: Claims, part: Part, measure: Measure, roles: Mapping[str, Runs], cache: dict) -> PartVerdict:
+def _part(claims: Claims, part: Part, measure: Measure, roles: Mapping[str, Runs], cache: Cache) -> PartVerdict:
     """Measure, compare, decide."""
     wanted = ("treatment", "control") if part.test in ("paired", "not_lower") else (part.role,)
-    values: dict[str, Mapping[int, float]] = {}
+    values: dict[str, dict[int, float]] = {}
     for role in wanted:
         label = claims.roles[role].label
         if not roles[role].runs:
@@ -79,11 +80,12 @@ def _part(claims: Claims, part: Part, measure: Measure, roles: Mapping[str, Runs
         if kept not in cache:
             try:
                 cache[kept] = measure.of(roles[role])
-            except CannotMeasure as why:
-                cache[kept] = why
-        if isinstance(cache[kept], CannotMeasure):
-            return PartVerdict(part, UNTESTABLE, f"{label}: {cache[kept]}")
-        values[role] = cache[kept]
+            except CannotMeasure as cannot:
+                cache[kept] = cannot
+        measured = cache[kept]
+        if isinstance(measured, CannotMeasure):
+            return PartVerdict(part, UNTESTABLE, f"{label}: {measured}")
+        values[role] = dict(measured)
     levels = {role: mean(list(of_seed.values())) for role, of_seed in values.items()}
     if len(wanted) == 2:
         sample = paired(values["treatment"], values["control"])
@@ -95,9 +97,9 @@ def _part(claims: Claims, part: Part, measure: Measure, roles: Mapping[str, Runs
         return PartVerdict(part, UNTESTABLE, f"{len(sample)} {what}, {rules.least_seeds} are needed",
                            Interval(mean(sample), float("nan"), float("nan")), seeds=len(sample), levels=levels)
     interval = bootstrap_interval(sample, confidence=rules.confidence, resamples=rules.resamples, seed=rules.seed)
-    if part.test == "permutation":
+    if part.test == "permutation" and isinstance(measure, Permuted):
         return _permutation(part, measure, roles[part.role], interval, len(sample), levels, rules)
-    against = -part.margin if part.test == "not_lower" else part.reference
+    against = -(part.margin or 0.0) if part.test == "not_lower" else part.reference
     p = float("nan") if part.direction == "about" and part.test != "not_lower" else \
         sign_flip_p(sample, against, seed=rules.seed)
     verdict, why = _decide(part, interval)
@@ -105,20 +107,22 @@ def _part(claims: Claims, part: Part, measure: Measure, roles: Mapping[str, Runs
                        effect_size(sample, against), p, len(sample), levels)
 
 
-def _decide(part: Part, d: Interval) -> tuple[str, str]:
+def _decide(part: Part, d: Interval) -> tuple[Finding, str]:
     """The verdict of an interval and why, by the rules of docs/claims.md."""
     if part.test == "not_lower":
-        if d.low >= -part.margin:
-            return REPRODUCED, f"not lower by more than {part.margin:g}"
-        if d.high < -part.margin:
-            return CONTRADICTED, f"lower by more than {part.margin:g}"
-        return NOT, f"may be lower by more than {part.margin:g}"
-    near = part.number is None or abs(d.value - part.number) <= part.tolerance
-    paper = "" if part.number is None else f"the paper's {part.number:g} ± {part.tolerance:g}"
-    if part.direction == "about":
+        margin = part.margin or 0.0
+        if d.low >= -margin:
+            return REPRODUCED, f"not lower by more than {margin:g}"
+        if d.high < -margin:
+            return CONTRADICTED, f"lower by more than {margin:g}"
+        return NOT, f"may be lower by more than {margin:g}"
+    number, tolerance = part.number, part.tolerance or 0.0
+    near = number is None or abs(d.value - number) <= tolerance
+    paper = "" if number is None else f"the paper's {number:g} ± {tolerance:g}"
+    if part.direction == "about" and number is not None:
         if near:
             return REPRODUCED, f"within {paper}"
-        apart = d.low > part.number + part.tolerance or d.high < part.number - part.tolerance
+        apart = d.low > number + tolerance or d.high < number - tolerance
         return (CONTRADICTED, f"away from {paper}") if apart else (NOT, f"not clearly within {paper}")
     r = part.reference
     holds, opposite = {"higher": (d.low > r, d.high < r), "lower": (d.high < r, d.low > r),
@@ -134,8 +138,8 @@ def _decide(part: Part, d: Interval) -> tuple[str, str]:
     return NOT, f"not clearly {side}"
 
 
-def _permutation(part: Part, measure: Measure, runs: Runs, interval: Interval, seeds: int, levels: dict,
-                 rules) -> PartVerdict:
+def _permutation(part: Part, measure: Permuted, runs: Runs, interval: Interval, seeds: int, levels: dict[str, float],
+                 rules: Rules) -> PartVerdict:
     import numpy as np
     null = measure.null(runs, 2000, rules.seed)
     null = null[~np.isnan(null)]
@@ -164,10 +168,8 @@ def _shown(claims: Claims, part: Part, d: Interval, levels: Mapping[str, float])
 def _together(key: str, claim: Claim, parts: list[PartVerdict]) -> Verdict:
     """All counting parts must hold: the claim fares as its worst part, contradicted being worst."""
     counting = [part for part in parts if part.part.counts]
-    order = (CONTRADICTED, UNTESTABLE, NOT, DIRECTION, REPRODUCED)
-    verdict = min((part.verdict for part in counting), key=order.index)
+    verdict = min((part.verdict for part in counting), key=WORST_FIRST.index)
     known = [part.p for part in counting if not math.isnan(part.p)]
     p = max(known) if known and verdict != UNTESTABLE else float("nan")
-    reasons = [part.reason for part in counting if part.verdict == verdict] if verdict not in (REPRODUCED, DIRECTION) \
-        else [part.reason for part in counting]
+    reasons = [part.reason for part in counting if verdict.holds or part.verdict == verdict]
     return Verdict(key, claim, verdict, "; ".join(dict.fromkeys(reasons)), parts, p)

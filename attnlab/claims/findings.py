@@ -1,0 +1,36 @@
+"""What may be found of a claim: each finding's word, letter, colours and meaning, once."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class Finding(StrEnum):
+    """A verdict. Its value is its word; ``letter`` stands in narrow tables, ``css`` is its class on the page, ``style``
+    its colour in the terminal, ``meaning`` what it says."""
+    letter: str
+    css: str
+    style: str
+    meaning: str
+
+    REPRODUCED = ("reproduced", "yes", "v-reproduced", "green",
+                  "the claimed direction is clear over seeds, and the paper's number (if it gives one) is met")
+    DIRECTION = ("direction only", "dir.", "v-direction", "cyan",
+                 "the claimed direction is clear, the number is not met")
+    NOT = ("not reproduced", "no", "v-not", "", "the interval over seeds allows either side")
+    CONTRADICTED = ("contradicted", "opp.", "v-contradicted", "red", "the opposite direction is clear")
+    UNTESTABLE = ("untestable", "?", "v-untestable", "dim", "the runs cannot say")
+
+    def __new__(cls, word: str, letter: str, css: str, style: str, meaning: str) -> Finding:
+        finding = str.__new__(cls, word)
+        finding._value_ = word
+        finding.letter, finding.css, finding.style, finding.meaning = letter, css, style, meaning
+        return finding
+
+    @property
+    def holds(self) -> bool:
+        """Is the claimed direction there beyond the uncertainty?"""
+        return self in (Finding.REPRODUCED, Finding.DIRECTION)
+
+
+WORST_FIRST = (Finding.CONTRADICTED, Finding.UNTESTABLE, Finding.NOT, Finding.DIRECTION, Finding.REPRODUCED)
