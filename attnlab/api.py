@@ -19,6 +19,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attnlab.behaviours.base import Behaviour, Command, Senses
+from attnlab.callbacks.base import Callback
 from attnlab.clusters.base import Cluster
 from attnlab.curiosity.base import Curiosity
 from attnlab.equations import avoid_reward, need_reward
@@ -29,11 +30,13 @@ from attnlab.learners.base import Learner
 from attnlab.measures.base import CannotMeasure, Measure
 from attnlab.needs.base import Body, Need, Needs
 from attnlab.penalty.base import Penalty
+from attnlab.probes.base import Lived, Probe
 from attnlab.registry import register
 from attnlab.results.load import Studies, Study, load
 from attnlab.settings import setting
 from attnlab.simulators.base import Blob, Simulator
 from attnlab.streams import stream
+from attnlab.tables.schema import Column
 from attnlab.worlds.base import Layout, World, check_start, outer_walls
 from attnlab.worlds.geometry import Solid
 
@@ -41,10 +44,11 @@ if TYPE_CHECKING:
     import pandas as pd
 
 __all__ = [
-    "Behaviour", "Blob", "Body", "CannotMeasure", "Cluster", "Command", "ConfigError", "Curiosity", "Exploration",
-    "Fusion", "Layout", "Learner", "Measure", "Need", "Needs", "Penalty", "Senses", "Simulator", "Solid", "Studies",
-    "Study", "Tables", "World", "avoid_reward", "check_start", "compose", "load", "need_reward", "outer_walls",
-    "register", "setting", "simulate", "stream", "sweep"]
+    "Behaviour", "Blob", "Body", "Callback", "CannotMeasure", "Cluster", "Column", "Command", "ConfigError",
+    "Curiosity", "Exploration", "Fusion", "Layout", "Learner", "Lived", "Measure", "Need", "Needs", "Penalty",
+    "Probe", "Senses", "Simulator", "Solid", "Studies", "Study", "Tables", "World", "avoid_reward",
+    "check_start", "compose", "load", "need_reward", "outer_walls", "register", "setting", "simulate", "stream",
+    "sweep"]
 
 
 class Tables(NamedTuple):

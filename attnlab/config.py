@@ -43,18 +43,21 @@ class RunSettings:
                                cosmetic=True)
     variants: Any = setting(None, "settings that are swept together: {name: {setting: value, ...}, ...}, or "
                             "{design: multiverse, size: 64, seed: 0}", cosmetic=True)
-    labels: dict = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}", cosmetic=True)
+    labels: dict[str, Any] = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}",
+                                     cosmetic=True)
     validation: ValidationSettings = setting(ValidationSettings(), "how validation differs from training")
-    reading: dict = setting({}, "how the paper's open points are read")
-    simulator: dict = setting({}, "")
-    world: dict = setting({}, "")
-    behaviours: dict = setting({}, "")
-    needs: dict = setting({}, "")
-    fusion: dict = setting({}, "")
-    curiosity: dict = setting({}, "")
-    learner: dict = setting({}, "")
-    exploration: dict = setting({}, "")
-    cluster: dict = setting({}, "where a sweep runs", cosmetic=True)
+    reading: dict[str, Any] = setting({}, "how the paper's open points are read")
+    simulator: dict[str, Any] = setting({}, "")
+    world: dict[str, Any] = setting({}, "")
+    behaviours: dict[str, Any] = setting({}, "")
+    needs: dict[str, Any] = setting({}, "")
+    fusion: dict[str, Any] = setting({}, "")
+    curiosity: dict[str, Any] = setting({}, "")
+    learner: dict[str, Any] = setting({}, "")
+    exploration: dict[str, Any] = setting({}, "")
+    probe: dict[str, Any] = setting({}, "columns of one's own")
+    callback: dict[str, Any] = setting({}, "who watches", cosmetic=True)
+    cluster: dict[str, Any] = setting({}, "where a sweep runs", cosmetic=True)
 
     def __post_init__(self) -> None:
         if len(set(self.periods)) != len(self.periods) or not self.periods:
@@ -68,8 +71,8 @@ _layouts: dict[str, Layout] = {}
 
 
 def run_key(config: Mapping[str, Any]) -> str:
-    """Ten hex digits of everything in a config that can change a number."""
-    kept = {key: value for key, value in config.items() if key not in COSMETIC}
+    """Ten hex digits of everything in a config that can change a number; a group of which nothing is chosen cannot."""
+    kept = {key: value for key, value in config.items() if key not in COSMETIC and (value != {} or key == "reading")}
     return hashlib.sha256(json.dumps(kept, sort_keys=True, default=str).encode()).hexdigest()[:10]
 
 

@@ -64,6 +64,9 @@ GROUPS: dict[str, Group] = {group.name: group for group in (
     Group("exploration", "exploration", "attnlab.exploration.base:Exploration", "chooses among the learned values"),
     Group("penalty", "penalty", "attnlab.penalty.base:Penalty", "who pays for the robot's death", chosen="setting",
           setting="reading.penalised"),
+    Group("probe", "probes", "attnlab.probes.base:Probe", "columns of one's own in a table", chosen="list"),
+    Group("callback", "callbacks", "attnlab.callbacks.base:Callback", "watches a run and touches nothing",
+          chosen="list", in_key=False),
     Group("cluster", "clusters", "attnlab.clusters.base:Cluster", "where the runs of a study are done", in_key=False),
     Group("measure", "measures", "attnlab.measures.base:Measure", "one number a seed, for claims", chosen="report"),
 )}

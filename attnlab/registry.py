@@ -86,6 +86,11 @@ def check_class(group: str, cls: type, origin: str) -> None:
                         f"from {base.__module__}")
     if inspect.isabstract(cls):
         raise TypeError(f"{origin}: {cls.__name__} lacks {', '.join(sorted(cls.__abstractmethods__))}")
+    if hasattr(cls, "check_declared"):
+        try:
+            cls.check_declared()
+        except TypeError as cause:
+            raise TypeError(f"{origin}: {cause}") from None
     for name, promised in inspect.getmembers(base, inspect.isroutine):
         given = getattr(cls, name)
         if name.startswith("_") or given is promised or not inspect.isroutine(given):

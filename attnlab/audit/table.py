@@ -101,7 +101,7 @@ def load_table(name: str | None = None) -> Table:
     import yaml
     path = table_path(name)
     try:
-        content = yaml.load(path.read_text(), _loader())  # noqa: S506  a safe loader that keeps numbers as printed
+        content = yaml.load(path.read_text(), _loader())
     except (yaml.YAMLError, UnicodeDecodeError, OSError) as cause:
         raise ConfigError(path.name, f"is no readable YAML: {cause}") from None
     if not isinstance(content, Mapping):

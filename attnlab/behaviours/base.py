@@ -32,7 +32,7 @@ class RobotSenses:
 
     A sensor is read when it is first asked for, and once a cycle: two behaviours that fire together share the image.
     """
-    __slots__ = ("simulator", "body", "cycle", "_front", "_front_at", "_blobs", "_blobs_at", "_ring", "_ring_at")
+    __slots__ = ("_blobs", "_blobs_at", "_front", "_front_at", "_ring", "_ring_at", "body", "cycle", "simulator")
 
     def __init__(self, simulator: Simulator, body: Body):
         self.simulator, self.body = simulator, body

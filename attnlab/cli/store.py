@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from attnlab import registry
 from attnlab.config import RunSettings
+from attnlab.groups import GROUPS
 from attnlab.reading import Reading
 from attnlab.settings import defaults_of
 
-GROUPS_OF_RUN = {group for group in (*registry.GROUPS, "reading")
+GROUPS_OF_RUN = {group for group in (*GROUPS, "reading")
                  if group in RunSettings.__dataclass_fields__}
 
 
@@ -29,5 +30,5 @@ def store_options() -> None:
         if group not in GROUPS_OF_RUN:
             continue  # measures, say: parts of a report, not of a run
         for option, node in spec.nodes().items():
-            package = f"behaviours.{option}" if group == "behaviours" else None
+            package = GROUPS[group].node(option) if GROUPS[group].chosen == "list" else None
             store.store(group=group, name=option, node=node, package=package, provider=spec.origin)

@@ -16,6 +16,7 @@ class Need:
     """A need that grows by ``per_activation`` for each active behaviour and ``per_cycle`` each cycle (UoE).
 
     ``death_at``: the robot dies when it reaches this; None if never. ``feeds_energy``: is what satisfies it energy?
+    ``unit``: of its value, for tables and figures.
     """
     name: str
     start: float
@@ -23,6 +24,7 @@ class Need:
     per_cycle: float = 0.0
     death_at: float | None = None
     feeds_energy: bool = False
+    unit: str = "UoE"
 
 
 @dataclass

@@ -9,6 +9,7 @@ from typing import Any
 from attnlab.errors import PartError
 from attnlab.robot.episode import run_episode
 from attnlab.robot.guards import diagnose
+from attnlab.robot.observers import Observers
 from attnlab.robot.plan import RunPlan
 from attnlab.robot.record import Recorder, Tables
 from attnlab.robot.rehearsal import Rehearsal
@@ -17,12 +18,14 @@ Progress = Callable[[int, int], None]  # (episodes done, cycles done)
 
 
 def play_run(plan: RunPlan, run: str = "run", swept: Mapping[str, Any] | None = None,
-             progress: Progress | None = None, folder: Path | None = None) -> tuple[Tables, int]:
+             progress: Progress | None = None, folder: Path | None = None,
+             observers: Observers | None = None) -> tuple[Tables, int]:
     """All episodes of a run; (tables as lists by column, machine cycles simulated).
 
     ``folder``: where a learner that works offline keeps its journal."""
     s = plan.settings
-    recorder = Recorder(run, s.seed, s.curiosity["name"], dict(swept or {}), plan.layout, s.check_identities)
+    recorder = Recorder(run, s.seed, s.curiosity["name"], dict(swept or {}), plan.layout, s.check_identities,
+                        plan.probes(), observers or Observers())
     done = cycles = 0
     phases = [("train", s.train_episodes), ("validation", s.validation_episodes)]
     last = max(i for i, (_, episodes) in enumerate(phases) if episodes)

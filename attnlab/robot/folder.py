@@ -13,11 +13,12 @@ from typing import Any
 from attnlab.loading import plugin_hashes
 from attnlab.robot.episodes import Progress, play_run
 from attnlab.robot.guards import verdict
+from attnlab.robot.observers import Observers
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.code import versions
 from attnlab.tables.files import write_bytes, write_json, write_parquet
 from attnlab.tables.processes import birth
-from attnlab.tables.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION, TABLES
+from attnlab.tables.schema import SCHEMA_VERSION, TABLES
 
 
 def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, Any],
@@ -41,17 +42,21 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     write_bytes(folder / "config.yaml", OmegaConf.to_yaml(OmegaConf.create(dict(config))).encode())
     for name in TABLES:
         (folder / f"{name}.parquet").unlink(missing_ok=True)
-    cpu = time.process_time()
+    cpu, observers = time.process_time(), Observers()
     try:
-        tables, cycles = play_run(RunPlan(config), info["run"], info["swept"], progress, folder)
-        per_behaviour = {f"{b}_{column}": kind for b in config["behaviours"] for column, kind in PER_BEHAVIOUR.items()}
+        plan = RunPlan(config)
+        observers = Observers(plan.callbacks(info["run"], folder))
+        observers.start(config)
+        tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers)
         for name in TABLES:
-            types = {**COLUMNS[name], **(per_behaviour if name == "cycles" else {})}
-            columns = tables[name] or {column: [] for column in COLUMNS[name]}
-            write_parquet(folder / f"{name}.parquet", columns, types)
+            columns = plan.columns(name)
+            write_parquet(folder / f"{name}.parquet", tables[name] or {column: [] for column in columns}, columns)
         about.update(status="complete", cycles=cycles)
     except Exception as cause:  # noqa: BLE001  a failed run is data: its traceback is stored, the sweep goes on
         about.update(status="failed", error=f"{traceback.format_exc()}\n{verdict(cause)}\n")
+    observers.end(str(about["status"]))
+    if observers.errors:
+        about["callbacks"] = observers.errors
     about.update(wall_s=round(time.perf_counter() - started, 3), cpu_s=round(time.process_time() - cpu, 3))
     write_json(folder / "run.json", about)
-    return about["status"] == "complete"
+    return bool(about["status"] == "complete")

@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from attnlab import registry
 from attnlab.attention import Attention
-from attnlab.behaviours.base import BehaviourContext
+from attnlab.callbacks.base import Callback
 from attnlab.config import RunSettings, layout_of, reading_of
-from attnlab.curiosity.base import CuriosityContext
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
-from attnlab.learners.base import LearnerContext, Rehearse
+from attnlab.learners.base import Rehearse
+from attnlab.probes.base import Probe
 from attnlab.reading import Reading
+from attnlab.robot.contexts import Making
 from attnlab.robot.guards import blame
 from attnlab.settings import build
-from attnlab.simulators.base import Simulator, SimulatorContext
+from attnlab.simulators.base import Simulator
 from attnlab.streams import stream
+from attnlab.tables.schema import Column, columns_of
 from attnlab.worlds.base import Layout
 
 
@@ -41,11 +44,13 @@ class RunPlan:
         for group in ("needs", "fusion", "curiosity", "learner", "exploration"):
             registry.build_params(group, getattr(s, group), group)
         registry.get("penalty", {"name": self.reading.penalised}, "reading.penalised")
-        for name, node in s.behaviours.items():
-            registry.build_params("behaviours", node, f"behaviours.{name}")
+        for group in ("behaviours", "probe", "callback"):
+            for name, node in getattr(s, group).items():
+                registry.build_params(group, node, f"{group}.{name}")
         self.simulator_spec = registry.build_params("simulator", s.simulator, "simulator")
         self.validation_spec = self._validation_spec()
-        self.found: dict = {}  # settings of the learner found offline, see Learner.prepare
+        self.needs: dict[str, str] = {}  # unit by need
+        self.found: dict[str, Any] = {}  # settings of the learner found offline, see Learner.prepare
         self._try_parts()
 
     def with_seed(self, seed: int) -> RunPlan:
@@ -69,7 +74,7 @@ class RunPlan:
         except Exception as cause:
             raise ConfigError(blame(cause), describe(cause), "The world could not be built") from cause
 
-    def _validation_spec(self):
+    def _validation_spec(self) -> tuple[registry.Spec, Any] | None:
         chosen = self.settings.validation
         if chosen.simulator is None and chosen.drive is None:
             return None
@@ -86,10 +91,13 @@ class RunPlan:
         """Construct everything that is cheap, so that a part's own complaint comes before the first run."""
         try:
             agent = self.agent(simulator=_NoSimulator())
+            self.callbacks()
+            self._check_probes(self.probes())
         except ConfigError:
             raise
         except Exception as cause:
             raise ConfigError(blame(cause), describe(cause), "The part could not be constructed") from cause
+        self.needs = {need.name: need.unit for need in agent.body.needs}
         simulator = self.simulator_spec[0].name
         for attention in agent.attentions:
             for need in attention.behaviour.feels:
@@ -105,9 +113,7 @@ class RunPlan:
     def simulator(self, validation: bool = False) -> Simulator:
         """A new simulator; the caller closes it."""
         spec, params = (validation and self.validation_spec) or self.simulator_spec
-        r = self.reading
-        part = spec.cls(params, SimulatorContext(self.layout, r.dt_s, r.max_cycles,
-                                                 r.safety_distance_m if r.crash == "safety_distance" else None))
+        part: Simulator = spec.cls(params, self.making().context("simulator", spec.name))
         part.name = spec.name
         return part
 
@@ -115,22 +121,53 @@ class RunPlan:
         """The robot with fresh tables; ``learner``: another one than that of the config, with its settings."""
         s, r = self.settings, self.reading
         chosen = learner or {**s.learner, **self.found}
-        curiosity = registry.make("curiosity", s.curiosity,
-                                  CuriosityContext(r, r.percept_bins, stream(s.seed, "curiosity")))
+        making = self.making()
+        curiosity = registry.make("curiosity", s.curiosity, making.context("curiosity", s.curiosity["name"]))
         attentions, own_needs = [], []
         for name, node in s.behaviours.items():
-            behaviour = registry.make("behaviours", node, BehaviourContext(r, stream(s.seed, "behaviour", name)),
-                                      f"behaviours.{name}")
+            behaviour = registry.make("behaviours", node, making.context("behaviours", name), f"behaviours.{name}")
             behaviour.name = name
             own_needs += behaviour.needs()
-            learns = registry.make("learner", chosen, LearnerContext(
-                r, name, curiosity.levels, s.periods, r.percept_bins, stream(s.seed, "learner", name)))
+            of_it = dataclasses.replace(making, levels=curiosity.levels, behaviour=name)
+            learns = registry.make("learner", chosen, of_it.context("learner", name))
             attentions.append(Attention(behaviour, s.periods, curiosity, learns, r,
                                         stream(s.seed, "exploration", name)))
         body = registry.make("needs", s.needs, r).body(own_needs)
         fusion = registry.make("fusion", s.fusion, r)
         penalty = registry.make("penalty", {"name": r.penalised}, r, "reading.penalised")
         return Agent(attentions, body, simulator, fusion, penalty, r.max_cycles)
+
+    def making(self, run: str = "run", folder: Path | None = None) -> Making:
+        """What the run's parts are made from."""
+        return Making(self.reading, self.settings.seed, self.layout, self.settings.periods, run=run, folder=folder)
+
+    def probes(self) -> list[Probe]:
+        """The probes, in the order in which they were chosen."""
+        return [registry.make("probe", node, self.making().context("probe", name), f"probe.{name}")
+                for name, node in self.settings.probe.items()]
+
+    def callbacks(self, run: str = "run", folder: Path | None = None) -> list[Callback]:
+        """Who watches the run that is stored in this folder."""
+        making = self.making(run, folder)
+        return [registry.make("callback", node, making.context("callback", name), f"callback.{name}")
+                for name, node in self.settings.callback.items()]
+
+    def columns(self, table: str) -> dict[str, Column]:
+        """All columns of a table of this run."""
+        added = {name: column for probe in self.probes() if probe.table == table
+                 for name, column in probe.columns.items()}
+        return columns_of(table, self.settings.behaviours, self.needs, added)
+
+    def _check_probes(self, probes: Sequence[Probe]) -> None:
+        """No two bring the same column, and none a column that the run has anyway."""
+        for table in ("episodes", "behaviours", "cycles"):
+            known = dict.fromkeys(columns_of(table, self.settings.behaviours, self.needs, {}), "the run")
+            for probe in probes:
+                for name in probe.columns if probe.table == table else ():
+                    if name in known:
+                        raise ConfigError(f"probe.{probe.name}", f"brings the column {name} to {table}, and so does "
+                                          f"{known[name]}")
+                    known[name] = f"probe.{probe.name}"
 
     def exploration(self, phase: str) -> Exploration:
         """How actions are chosen in this phase (train | validation)."""

@@ -3,34 +3,42 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from attnlab.attention import Attention
 from attnlab.cycle import Agent
 from attnlab.equations import safety as safety_at
 from attnlab.needs.base import Body
+from attnlab.probes.base import Lived, Probe, Values
 from attnlab.robot.guards import check_commands, check_log
 from attnlab.robot.identities import check_balance, check_clock, check_safety
+from attnlab.robot.observers import Observers
 from attnlab.tables.schema import CELL_M
 from attnlab.worlds.base import Layout
 
-Tables = dict[str, dict[str, list]]  # table -> column -> values
+Tables = dict[str, dict[str, list[Any]]]  # table -> column -> values
 Moment = tuple[float, ...]  # (cycles moved, behaviours active when the last stretch began, energy, *needs)
 
 
 class Recorder:
-    """Collects rows of one run as lists by column; ``tables`` is handed to the writer at the end."""
+    """Collects rows of one run as lists by column; ``tables`` is handed to the writer at the end. Probes add columns,
+    observers are told of every episode."""
 
-    def __init__(self, run: str, seed: int, curiosity: str, swept: dict, layout: Layout, check: bool):
+    def __init__(self, run: str, seed: int, curiosity: str, swept: dict[str, Any], layout: Layout, check: bool,
+                 probes: Sequence[Probe] = (), observers: Observers | None = None):
+        self.probes, self.observers = probes, observers or Observers()
         self.run_columns = {"run": run, "seed": seed, "curiosity": curiosity}
         self.swept, self.check = swept, check
         self.tables: Tables = {name: defaultdict(list) for name in
                                                    ("episodes", "behaviours", "policy", "cycles", "coverage")}
         self._cells = (int(np.ceil(layout.width_m / CELL_M - 1e-9)), int(np.ceil(layout.depth_m / CELL_M - 1e-9)))
-        self._visits: dict[str, np.ndarray] = {}
+        self._visits: dict[str, npt.NDArray[np.int64]] = {}
 
-    def _add(self, table: str, **row) -> None:
+    def _add(self, table: str, **row: Any) -> None:
         columns = self.tables[table]
         for name, value in row.items():
             columns[name].append(value)
@@ -55,9 +63,15 @@ class Recorder:
             for attention in agent.attentions:
                 check_log(attention)
                 check_clock([a.cycle for a in attention.log], [a.period for a in attention.log], n)
+        wanting = _held(agent.attentions[0], n, [a.wanting for a in agent.attentions[0].log])
+        added: dict[str, dict[str, Any]] = {"episodes": {}, "behaviours": {}, "cycles": {}}
+        if self.probes or self.observers:
+            lived = _lived(agent, phase, episode, death, path, energy, wanting, safety, needs)
+            for probe in self.probes:
+                added[probe.table] |= probe.checked(lived)
+            self.observers.episode(lived)
         means = {f"{name}_{what}": float(values.mean() if what == "mean" else values.max())
                  for name, values in needs.items() for what in ("mean", "max")}
-        wanting = _held(agent.attentions[0], n, [a.wanting for a in agent.attentions[0].log])
         self._add("episodes", **self.run_columns, phase=phase, episode=episode, cycles=n,
                   survival=n / agent.max_cycles, death=death or "none", active_cycles=len(lengths),
                   meals=_meals(body, "hunger"), drinks=_meals(body, "thirst"),
@@ -67,14 +81,15 @@ class Recorder:
                   energy_mean=float(energy.mean()), energy_min=float(energy.min()), energy_max=float(energy.max()),
                   **{"hunger_mean": None, "hunger_max": None, "thirst_mean": None, "thirst_max": None, **means},
                   wanting_mean=float(wanting.mean()), path_m=float(np.hypot(steps[:, 0], steps[:, 1]).sum()),
-                  **self.swept)
+                  **self.swept, **added["episodes"])
         for attention, penalty in zip(agent.attentions, penalties, strict=True):
-            self._behaviour(attention, phase, episode, penalty)
+            mine = {name: values[attention.behaviour.name] for name, values in added["behaviours"].items()}
+            self._behaviour(attention, phase, episode, penalty, mine)
         self._cover(phase, path[1:])
         if full:
-            self._cycles(agent, phase, episode, path[1:], needs, energy, wanting, safety)
+            self._cycles(agent, phase, episode, path[1:], needs, energy, wanting, safety, added["cycles"])
 
-    def _safety(self, agent: Agent, n: int) -> np.ndarray | None:
+    def _safety(self, agent: Agent, n: int) -> Values | None:
         """Eq (13) in every cycle, from what AVOID last perceived; None if nobody answers for crashes."""
         guard = next((a for a in agent.attentions if "crash" in a.behaviour.charges), None)
         if guard is None:
@@ -88,7 +103,7 @@ class Recorder:
             check_safety(float(safety.mean()), n, len(guard.log), longest, shortest)
         return safety
 
-    def _behaviour(self, attention: Attention, phase: str, episode: int, penalty: float) -> None:
+    def _behaviour(self, attention: Attention, phase: str, episode: int, penalty: float, added: dict[str, Any]) -> None:
         log = attention.log
         paid = [a for a in log if a.reward is not None]
         self._add("behaviours", **self.run_columns, phase=phase, episode=episode, behaviour=attention.behaviour.name,
@@ -96,17 +111,17 @@ class Recorder:
                   reward=sum(a.reward for a in paid) + penalty,
                   reward_extrinsic=sum(a.extrinsic for a in paid) + penalty, penalty=penalty,
                   liking_mean=sum(a.liking for a in log) / len(log), period_mean=sum(a.period for a in log) / len(log),
-                  **self.swept)
+                  **self.swept, **added)
 
-    def _cover(self, phase: str, path: np.ndarray) -> None:
+    def _cover(self, phase: str, path: Values) -> None:
         nx, ny = self._cells
         i = np.clip((path[:, 0] / CELL_M).astype(np.int64), 0, nx - 1)
         j = np.clip((path[:, 1] / CELL_M).astype(np.int64), 0, ny - 1)
         visits = np.bincount(i * ny + j, minlength=nx * ny)
         self._visits[phase] = self._visits.get(phase, 0) + visits
 
-    def _cycles(self, agent: Agent, phase: str, episode: int, path: np.ndarray, needs: dict, energy: np.ndarray,
-                wanting: np.ndarray, safety: np.ndarray | None) -> None:
+    def _cycles(self, agent: Agent, phase: str, episode: int, path: Values, needs: dict[str, Values], energy: Values,
+                wanting: Values, safety: Values | None, added: dict[str, Any]) -> None:
         n, dt = len(path), agent.simulator.dt_s
         before = agent.simulator.trace[:n]
         turn = (path[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
@@ -126,6 +141,7 @@ class Recorder:
             rows[f"{name}_percept"] = _held(attention, n, [a.percept + 1 for a in log])
             levels = attention.curiosity.levels
             rows[f"{name}_level"] = [levels[i] for i in _held(attention, n, [a.level for a in log])]
+        rows |= added
         for name, values in rows.items():
             columns[name].extend(values.tolist() if isinstance(values, np.ndarray) else values)
 
@@ -147,7 +163,20 @@ class Recorder:
         return self.tables
 
 
-def _check_energy(body: Body, moments: np.ndarray, lengths: np.ndarray) -> None:
+def _lived(agent: Agent, phase: str, episode: int, death: str | None, path: Values, energy: Values, wanting: Values,
+           safety: Values | None, needs: Mapping[str, Values]) -> Lived:
+    """The episode as those see it who only look: arrays that cannot be written to."""
+    def fixed(values: Values) -> Values:
+        view = values.view()
+        view.flags.writeable = False
+        return view
+    return Lived(phase, episode, agent.simulator.cycle, agent.max_cycles, death, fixed(path), fixed(energy),
+                 fixed(wanting), None if safety is None else fixed(safety),
+                 {name: fixed(values) for name, values in needs.items()},
+                 {a.behaviour.name: tuple(a.log) for a in agent.attentions})
+
+
+def _check_energy(body: Body, moments: Values, lengths: Values) -> None:
     """The balance of energy and needs, unless one of them grows by itself."""
     feeding = [i for i, need in enumerate(body.needs) if need.feeds_energy]
     if not any(body.needs[i].per_cycle for i in feeding):
@@ -156,10 +185,10 @@ def _check_energy(body: Body, moments: np.ndarray, lengths: np.ndarray) -> None:
         check_balance(balance, body.e_u, body.e_nb, growth, moments[1:, 1], lengths)
 
 
-def _held(attention: Attention, n: int, values: list) -> np.ndarray:
+def _held(attention: Attention, n: int, values: Sequence[Any]) -> Values:
     """What was set at each activation, in every cycle until the next one."""
     return np.repeat(values, np.diff([a.cycle for a in attention.log], append=n))
 
 
-def _meals(body, need: str) -> int | None:
+def _meals(body: Body, need: str) -> int | None:
     return body.meals[body.index[need]] if need in body.index else None

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import radians
+from random import Random
 from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
@@ -54,11 +55,12 @@ class SensorParams:
 @dataclass(frozen=True)
 class SimulatorContext:
     """What a simulator is built from. ``safety_distance_m``: None, or the least front-sonar distance from the centre
-    that does not count as a crash."""
+    that does not count as a crash; ``draw``: its own random stream, for sensors and motors that are not exact."""
     layout: Layout
     dt_s: float
     max_cycles: int
     safety_distance_m: float | None = None
+    draw: Random = field(default_factory=lambda: Random(0))
 
 
 class Simulator(ABC):
@@ -71,7 +73,7 @@ class Simulator(ABC):
 
     def __init__(self, params: SensorParams, context: SimulatorContext):
         self.params, self.layout, self.dt_s = params, context.layout, context.dt_s
-        self.safety_distance_m = context.safety_distance_m
+        self.safety_distance_m, self.draw = context.safety_distance_m, context.draw
         self.camera = Camera(params.camera_columns, params.camera_rows, radians(params.camera_fov_deg))
         self.trace: npt.NDArray[np.float64] = np.zeros((context.max_cycles + 1, 3))
         self.cycle = 0

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+from attnlab.tables.schema import Column
 
 
 def write_bytes(path: Path, data: bytes) -> None:
@@ -34,14 +37,19 @@ def read_json(path: Path) -> dict[str, Any] | None:
     return content if isinstance(content, dict) else None
 
 
-def write_parquet(path: Path, columns: dict[str, list], types: dict[str, str]) -> None:
-    """One table; the bytes depend on the values and the Arrow version alone."""
+def write_parquet(path: Path, columns: Mapping[str, Sequence[Any]], known: Mapping[str, Column]) -> None:
+    """One table; the bytes depend on the values and the Arrow version alone. ``known``: type, unit and meaning of
+    columns, which are kept with them; a column that is not known gets the type of its values."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    def kind(name: str) -> pa.DataType | None:
-        return pa.type_for_alias(types[name]) if name in types else None
-    table = pa.table({name: pa.array(values, type=kind(name)) for name, values in columns.items()})
+    arrays, fields = [], []
+    for name, values in columns.items():
+        column = known.get(name)
+        arrays.append(pa.array(values, type=pa.type_for_alias(column.type) if column else None))
+        about = {"unit": column.unit, "meaning": column.meaning} if column else None
+        fields.append(pa.field(name, arrays[-1].type, metadata=about))
+    table = pa.Table.from_arrays(arrays, schema=pa.schema(fields))
     sink = pa.BufferOutputStream()
     pq.write_table(table, sink, compression="zstd", use_dictionary=True, write_statistics=True)
     write_bytes(path, sink.getvalue().to_pybytes())

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, cast
 
 from attnlab import registry
-from attnlab.behaviours.base import BehaviourContext
-from attnlab.curiosity.base import CuriosityContext
-from attnlab.learners.base import LearnerContext
 from attnlab.loading import config_folders, load_all
 from attnlab.paths import conf_dir
 from attnlab.reading import Reading
+from attnlab.robot.contexts import Making
 from attnlab.robot.plan import RunPlan
 from attnlab.settings import build, defaults_of
-from attnlab.simulators.base import SimulatorContext
-from attnlab.streams import stream
 from attnlab.worlds.base import Layout, World
 
 PERIODS = [1, 4, 8, 12]
@@ -69,22 +65,16 @@ def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None 
          behaviour: str = "avoid", levels: tuple[str, ...] = ("low", "LH", "HH"), **settings: Any) -> Any:
     """The part ``group=name`` with ``settings``, under the reading ``how``; streams from ``seed``."""
     r = reading(**(how or {}))
-    contexts: dict[str, Callable[[], Any]] = {
-        "curiosity": lambda: CuriosityContext(r, r.percept_bins, stream(seed, "curiosity")),
-        "behaviours": lambda: BehaviourContext(r, stream(seed, "behaviour", name)),
-        "learner": lambda: LearnerContext(r, behaviour, levels, PERIODS, r.percept_bins, stream(seed, "learner")),
-        "simulator": lambda: SimulatorContext(world or layout(), r.dt_s, r.max_cycles),
-        "needs": lambda: r, "fusion": lambda: r, "penalty": lambda: r,
-        "exploration": lambda: None, "world": lambda: None,
-    }
-    return registry.make(group, node(group, name, **settings), contexts[group]())
+    making = Making(r, seed, world or layout(), PERIODS, levels, behaviour)
+    return registry.make(group, node(group, name, **settings), making.context(group, name))
 
 
 def config(*, simulator: str = "planar", behaviours: tuple[str, ...] = ("avoid", "eat", "drink"),
            world: Mapping[str, Any] | None = None, how: Mapping[str, Any] | None = None, curiosity: Any = "litman",
            learner: Any = "q_learning", exploration: Any = "softmax", needs: Any = "survival",
-           fusion: Any = "min_speed_sum_turn", **top: Any) -> dict[str, Any]:
-    """A run's config; a part is a name or {name: ..., setting: ...}. Short unless ``top`` says otherwise."""
+           fusion: Any = "min_speed_sum_turn", probe: Any = (), **top: Any) -> dict[str, Any]:
+    """A run's config; a part is a name or {name: ..., setting: ...}; probes are names, or nodes by name. Short unless
+    ``top`` says otherwise."""
     def part(group: str, chosen: Any) -> dict[str, Any]:
         return node(group, chosen) if isinstance(chosen, str) else node(group, **chosen)
     return {"seed": 0, "train_episodes": 2, "validation_episodes": 1, "max_cycles": 120, "record": "all",
@@ -92,6 +82,7 @@ def config(*, simulator: str = "planar", behaviours: tuple[str, ...] = ("avoid",
             "world": dict(world) if world else node("world", "layout", boxes=BOXES),
             "behaviours": {name: node("behaviours", name) for name in behaviours}, "needs": part("needs", needs),
             "fusion": part("fusion", fusion), "curiosity": part("curiosity", curiosity),
+            "probe": dict(probe) if isinstance(probe, Mapping) else {name: node("probe", name) for name in probe},
             "learner": part("learner", learner), "exploration": part("exploration", exploration), **top}
 
 

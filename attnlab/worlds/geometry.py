@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, hypot, sin
 
+import numpy as np
+import numpy.typing as npt
+
 
 @dataclass(frozen=True)
 class Solid:
@@ -36,6 +39,18 @@ def distance(x: float, y: float, solid: Solid) -> float:
 def clearance(x: float, y: float, solids: tuple[Solid, ...]) -> float:
     """Distance from a point to the nearest solid; infinite without solids."""
     return min((distance(x, y, solid) for solid in solids), default=float("inf"))
+
+
+def clearances(xy: npt.NDArray[np.float64], solids: tuple[Solid, ...]) -> npt.NDArray[np.float64]:
+    """:func:`clearance` of many points, shape (n, 2), at once: shape (n,)."""
+    nearest = np.full(len(xy), np.inf)
+    for solid in solids:
+        c, s = cos(solid.yaw_rad), sin(solid.yaw_rad)
+        dx, dy = xy[:, 0] - solid.x_m, xy[:, 1] - solid.y_m
+        along = np.maximum(np.abs(c * dx + s * dy) - solid.length_m / 2, 0.0)
+        across = np.maximum(np.abs(-s * dx + c * dy) - solid.width_m / 2, 0.0)
+        np.minimum(nearest, np.hypot(along, across), out=nearest)
+    return nearest
 
 
 def overlap(one: Solid, two: Solid) -> bool:

@@ -8,18 +8,18 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
-from small_study import write_run, write_study  # noqa: E402
+from small_study import write_run, write_study
 
-from attnlab import registry  # noqa: E402
-from attnlab.claims.files import Part, load_claims  # noqa: E402
-from attnlab.claims.judge import _decide, judge  # noqa: E402
+from attnlab import registry
+from attnlab.claims.files import Part, load_claims
+from attnlab.claims.judge import _decide, judge
 from attnlab.loading import load_all
-from attnlab.measures.base import CannotMeasure  # noqa: E402
-from attnlab.measures.policies import greedy, in_words, parse_pattern  # noqa: E402
-from attnlab.results import load  # noqa: E402
-from attnlab.results.conditions import Conditions  # noqa: E402
-from attnlab.stats import Interval  # noqa: E402
-from attnlab.stats.levels import level_contrast, level_null  # noqa: E402
+from attnlab.measures.base import CannotMeasure
+from attnlab.measures.policies import greedy, in_words, parse_pattern
+from attnlab.results import load
+from attnlab.results.conditions import Conditions
+from attnlab.stats import Interval
+from attnlab.stats.levels import level_contrast, level_null
 
 
 @pytest.fixture(scope="module")

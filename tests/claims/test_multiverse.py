@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
-from small_study import write_run  # noqa: E402
+from small_study import write_run
 
-from attnlab.claims.files import load_claims  # noqa: E402
-from attnlab.claims.judge import judge  # noqa: E402
-from attnlab.errors import ConfigError  # noqa: E402
-from attnlab.launch.multiverse import balanced, design, imbalance, load_factors  # noqa: E402
-from attnlab.reading import Reading  # noqa: E402
-from attnlab.results import load  # noqa: E402
-from attnlab.results.conditions import Conditions  # noqa: E402
+from attnlab.claims.files import load_claims
+from attnlab.claims.judge import judge
+from attnlab.errors import ConfigError
+from attnlab.launch.multiverse import balanced, design, imbalance, load_factors
+from attnlab.reading import Reading
+from attnlab.results import load
+from attnlab.results.conditions import Conditions
 
 
 def test_64_readings_are_valid_and_balanced():

@@ -8,7 +8,7 @@ from attnlab.testing import checks
 from attnlab.testing.common import IN_A_RUN
 
 load_all()
-GROUPS = (*IN_A_RUN, "world", "penalty")
+GROUPS = (*IN_A_RUN, "world", "penalty", "probe", "callback")
 CASES = [(spec.group, option, check) for spec in registry.parts.values() if spec.group in GROUPS
          for option in (spec.name, *spec.presets) for check in checks(spec.group)]
 

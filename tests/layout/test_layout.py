@@ -23,7 +23,8 @@ FLOORS = (
     ("behaviours", "tables"),
     ("curiosity", "penalty"),
     ("attention",),
-    ("cycle",),
+    ("cycle", "probes"),
+    ("callbacks",),
     # the two wings: what runs a robot, what reads a study
     ("robot", "results", "stats"),
     ("measures",),

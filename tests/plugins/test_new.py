@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from attnlab.groups import GROUPS
 from attnlab.new import groups
 
 
 def test_every_group_starts_with_a_part_that_passes_its_tests(attnlab, tmp_path):
-    assert groups() == ["behaviours", "curiosity", "exploration", "fusion", "learner", "needs", "penalty",
-                        "simulator", "world"]
+    assert set(GROUPS) - set(groups()) <= {"cluster"}  # the one group whose parts are written by few
     for group in groups():
         done = attnlab(group, f"my_{group}", module="attnlab.new")
         assert done.returncode == 0, done.stderr

@@ -8,7 +8,7 @@ import numpy as np
 import yaml
 
 from attnlab.tables.files import write_json, write_parquet
-from attnlab.tables.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION
+from attnlab.tables.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION, columns_of
 
 BEHAVIOURS = ("avoid", "eat", "drink")
 WORLD = {"name": "paper", "part": "layout", "width_m": 4.0, "depth_m": 4.0,
@@ -67,9 +67,8 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
         for x in range(10 + seed):
             for y in range(10):
                 add("coverage", run=name, phase=phase, x_cell=x + 5, y_cell=y + 5, visits=int(rng.integers(1, 50)))
-    kinds = {f"{b}_{column}": kind for b in BEHAVIOURS for column, kind in PER_BEHAVIOUR.items()}
     for table, columns in tables.items():
-        write_parquet(folder / f"{table}.parquet", columns, {**COLUMNS[table], **(kinds if table == "cycles" else {})})
+        write_parquet(folder / f"{table}.parquet", columns, columns_of(table, BEHAVIOURS, {}, {}))
     content = {"seed": seed, "train_episodes": train, "validation_episodes": validation, "max_cycles": cycles,
                "curiosity": {"name": curiosity}, "labels": labels or {}, "world": WORLD,
                "reading": {"name": "inferred"}, "simulator": {"name": "planar"}, "learner": {"name": "q_learning"},

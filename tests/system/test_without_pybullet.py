@@ -25,7 +25,7 @@ def test_what_needs_it_says_so_before_anything_runs(complain, typed):
     assert code == 2 and written == []
     lines = err.strip().splitlines()
     assert len(lines) == 1
-    assert "needs the package pybullet, which is not installed here. pip install pybullet, or choose another" in lines[0]
+    assert "needs the package pybullet, which is not installed here. pip install pybullet, or choose" in lines[0]
 
 
 @pytest.mark.usefixtures("no_pybullet")

@@ -1,0 +1,1 @@
+"""Probes: columns of one's own in a table."""
