@@ -64,5 +64,7 @@ GROUPS: dict[str, Group] = {group.name: group for group in (
     Group("exploration", "exploration", "attnlab.exploration.base:Exploration", "chooses among the learned values"),
     Group("penalty", "penalty", "attnlab.penalty.base:Penalty", "who pays for the robot's death", chosen="setting",
           setting="reading.penalised"),
+    Group("figure", "figures", "attnlab.figures.base:Figure", "a picture of a study and a sentence, on every page",
+          chosen="report", in_key=False),
     Group("measure", "measures", "attnlab.measures.base:Measure", "one number a seed, for claims", chosen="report"),
 )}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ class CannotMeasure(Exception):
     """The runs lack what a measure needs; the message says what, in words for a reader of the report."""
 
 
-class Measure:
+class Measure(ABC):
     """One number a seed. Subclass it, register it as ``@register("measure", "mine")``, name it in a claims file.
 
         @register("measure", "meals")
@@ -35,9 +36,9 @@ class Measure:
     def __init__(self, params: Any, context: Any = None):
         self.params = params
 
+    @abstractmethod
     def of(self, runs: Runs) -> Mapping[int, float]:
         """Seed -> value; nan for a seed that has none. Raises :class:`CannotMeasure` if no seed can have one."""
-        raise NotImplementedError
 
     # for subclasses
 

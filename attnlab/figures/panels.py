@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from attnlab.report.style import WIDTH_IN, colours, cut, dashes
-from attnlab.results.conditions import Conditions, Runs
+from attnlab.figures.style import WIDTH_IN, colours, cut, dashes
+from attnlab.measures.once import once_a_study
 from attnlab.stats import bootstrap_band
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from attnlab.results.conditions import Conditions, Runs
 
 MOST_PANELS = 12
 
@@ -35,6 +37,7 @@ class Panel:
     lines: list[Line]
 
 
+@once_a_study
 def panels(conditions: Conditions) -> list[Panel]:
     """Lines are the curiosities, panels the other settings. Where a curiosity has no rival under the same settings, the
     first setting makes the lines: generations of attention share their axes, though only one of them is curious."""
@@ -61,6 +64,7 @@ def panels(conditions: Conditions) -> list[Panel]:
             for rest, lines in groups.items()]
 
 
+@once_a_study
 def one_line_each(conditions: Conditions) -> bool:
     """Does every combination of settings have one curiosity?"""
     return bool(conditions.settings) and all(sum(bool(conditions.runs(c, stratum).runs) for c in conditions.curiosities)
