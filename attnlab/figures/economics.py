@@ -12,7 +12,7 @@ from attnlab.figures.panels import Line, panels
 from attnlab.figures.style import GREY, WIDTH_IN, cut, empty
 from attnlab.measures.base import CannotMeasure, Measure
 from attnlab.measures.needs import units_of
-from attnlab.measures.rewards import summed
+from attnlab.measures.rewards import mean_sums
 from attnlab.registry import register
 from attnlab.stats import bootstrap_interval
 
@@ -101,7 +101,7 @@ def _point(line: Line, name: str, colour: str, marker: str, needs: list[str]) ->
     for phase in ("validation", "train"):
         try:
             episodes = Measure.episodes(line.runs, phase)
-            acts = Measure.means(summed(line.runs, phase, "all", "activations"), "value")
+            acts = mean_sums(line.runs, phase, "all", "activations")
         except CannotMeasure:
             continue
         columns = [f"{need}_mean" for need in needs if f"{need}_mean" in episodes]
