@@ -8,6 +8,7 @@ from typing import Any
 from attnlab import registry
 from attnlab.behaviours.base import BehaviourContext
 from attnlab.curiosity.base import CuriosityContext
+from attnlab.figures.base import FigureContext
 from attnlab.learners.base import LearnerContext
 from attnlab.loading import load_all
 from attnlab.reading import Reading
@@ -52,7 +53,7 @@ def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None 
         "learner": lambda: LearnerContext(r, behaviour, levels, PERIODS, r.percept_bins, stream(seed, "learner")),
         "simulator": lambda: SimulatorContext(world or layout(), r.dt_s, r.max_cycles),
         "needs": lambda: r, "fusion": lambda: r, "penalty": lambda: r,
-        "exploration": lambda: None, "world": lambda: None,
+        "exploration": lambda: None, "world": lambda: None, "measure": lambda: None, "figure": FigureContext,
     }
     return registry.make(group, node(group, name, **settings), contexts[group]())
 

@@ -8,14 +8,14 @@ from typing import Any
 from attnlab import registry
 from attnlab.errors import ConfigError
 from attnlab.loading import load_all
-from attnlab.testing import behaviour, body, common, curiosity, learner, penalty, world
+from attnlab.testing import behaviour, body, common, curiosity, figure, learner, measure, penalty, world
 
 Check = Callable[..., None]  # (name, **settings)
 
 CHECKS: dict[str, tuple] = {"curiosity": curiosity.CHECKS, "learner": learner.LEARNER,
                             "exploration": learner.EXPLORATION, "behaviours": behaviour.CHECKS, "needs": body.NEEDS,
                             "fusion": body.FUSION, "simulator": world.SIMULATOR, "world": world.WORLD,
-                            "penalty": penalty.CHECKS}
+                            "penalty": penalty.CHECKS, "measure": measure.CHECKS, "figure": figure.CHECKS}
 
 
 def checks(group: str) -> dict[str, Check]:

@@ -6,8 +6,8 @@ from attnlab.new import groups
 
 
 def test_every_group_starts_with_a_part_that_passes_its_tests(attnlab, tmp_path):
-    assert groups() == ["behaviours", "curiosity", "exploration", "fusion", "learner", "needs", "penalty",
-                        "simulator", "world"]
+    assert groups() == ["behaviours", "curiosity", "exploration", "figure", "fusion", "learner", "measure", "needs",
+                        "penalty", "simulator", "world"]
     for group in groups():
         done = attnlab(group, f"my_{group}", module="attnlab.new")
         assert done.returncode == 0, done.stderr
