@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from attnlab import registry
@@ -44,13 +44,17 @@ def layout(seed: int = 0, name: str = "layout", **settings: Any) -> Layout:
 
 
 def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None = None, world: Layout | None = None,
-         behaviour: str = "avoid", levels: tuple[str, ...] = ("low", "LH", "HH"), **settings: Any) -> Any:
-    """The part ``group=name`` with ``settings``, under the reading ``how``; streams from ``seed``."""
-    r = reading(**(how or {}))
+         behaviour: str | None = None, levels: Sequence[str] | None = None, **settings: Any) -> Any:
+    """The part ``group=name`` with ``settings``, under the reading ``how``; streams from ``seed``. ``behaviour`` and
+    ``levels`` are a learner's context (AVOID with all three if left out), or settings of a measure."""
+    if group == "measure":
+        settings |= {name: value for name, value in (("behaviour", behaviour), ("levels", levels)) if value is not None}
+    r, levels = reading(**(how or {})), tuple(levels or ("low", "LH", "HH"))
     contexts = {
         "curiosity": lambda: CuriosityContext(r, r.percept_bins, stream(seed, "curiosity")),
         "behaviours": lambda: BehaviourContext(r, stream(seed, "behaviour", name)),
-        "learner": lambda: LearnerContext(r, behaviour, levels, PERIODS, r.percept_bins, stream(seed, "learner")),
+        "learner": lambda: LearnerContext(r, behaviour or "avoid", levels, PERIODS, r.percept_bins,
+                                          stream(seed, "learner")),
         "simulator": lambda: SimulatorContext(world or layout(), r.dt_s, r.max_cycles),
         "needs": lambda: r, "fusion": lambda: r, "penalty": lambda: r,
         "exploration": lambda: None, "world": lambda: None, "measure": lambda: None, "figure": FigureContext,
