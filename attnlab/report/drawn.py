@@ -28,8 +28,9 @@ def draw(names: Sequence[str], context: FigureContext, conditions: Conditions, c
             if not figure.applies(conditions):
                 continue
             claims = [v.id for v in judged if figure.shows(v.claim.where, [p.part.measure_name for p in v.parts])]
+            said = figure.say(conditions)
             png = save(figure.draw(conditions), figure.key, target)
-            shown = Shown(figure.key, figure.heading, paper, figure.say(conditions), png, claims, figure.how)
+            shown = Shown(figure.key, figure.heading, paper, said, png, claims, figure.how)
         except Exception as cause:  # noqa: BLE001  a figure of anybody's: it is named, and the page goes on
             spec = parts["figure", name]
             shown = Shown(name, spec.cls.title or name, paper, failed=f"{_short(spec.origin)}: {describe(cause)}")
