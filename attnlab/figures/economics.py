@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from attnlab.figures.base import Figure
+from attnlab.figures.episode import first_lines
 from attnlab.figures.found import sentence
 from attnlab.figures.panels import Line, panels
 from attnlab.figures.style import GREY, WIDTH_IN, cut, empty
@@ -20,8 +21,7 @@ if TYPE_CHECKING:
     from attnlab.results.conditions import Conditions
 
 MARKERS = "osD^vPX*<>ph"
-MOST = 60  # marks that a panel can hold
-SAID = 10
+MOST, SAID = 24, 10  # conditions that can be told apart in a panel, and in a sentence
 
 
 class Point(NamedTuple):
@@ -42,8 +42,9 @@ class Economics(Figure):
 
     def draw(self, conditions):
         import matplotlib.pyplot as plt
-        figure, axes = plt.subplots(1, 3, figsize=(WIDTH_IN, 3.7))
         drawn, (needs, unit) = points(conditions, self.context.baselines, MOST), common_needs(conditions)
+        lines_of_legend = -(-len(drawn) // 4)
+        figure, axes = plt.subplots(1, 3, figsize=(WIDTH_IN, 3.7 + 0.22 * max(0, lines_of_legend - 3)))
         labels = {"survival": "survival, %", "safety": "mean safety, 0-1", "need": f"mean of {_and(needs)}, {unit}"}
         for ax, (outcome, label) in zip(axes, labels.items(), strict=True):
             for point in drawn:
@@ -61,7 +62,9 @@ class Economics(Figure):
             ax.margins(0.08)
             if not ax.lines:
                 empty(ax, "not recorded")
-        figure.supxlabel("activations in 100 cycles, all behaviours together", fontsize=9.5)
+        every = len(first_lines(conditions, 10_000))
+        note = f" (the first {MOST} of {every} conditions)" if every > MOST else ""
+        figure.supxlabel(f"activations in 100 cycles, all behaviours together{note}", fontsize=9.5)
         handles, names = axes[0].get_legend_handles_labels()
         if handles:
             figure.legend(handles, names, loc="outside upper left", ncol=min(4, len(handles)), handletextpad=0.3)

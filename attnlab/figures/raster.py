@@ -23,7 +23,7 @@ MOST = 4
 class Raster(Figure):
     """A tick for every activation in the last recorded episode, coloured by the period granted, needs below."""
     title, order = "Who looked when", 130
-    how = ("Each tick is an activation, its colour the period until the next look; hunger and thirst below on the same "
+    how = ("Each tick is an activation, its colour the period until the next look; the needs below on the same "
            "axis.")
 
     def draw(self, conditions):

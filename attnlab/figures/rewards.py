@@ -11,7 +11,7 @@ from attnlab.figures.curves import finish, rows_of_panels
 from attnlab.figures.found import validation
 from attnlab.figures.panels import Panel, band, block_of, by_episode, grid
 from attnlab.figures.style import GREY, cut, empty
-from attnlab.measures.rewards import Reward
+from attnlab.measures.rewards import Reward, behaviours_of
 from attnlab.registry import register
 
 if TYPE_CHECKING:
@@ -56,12 +56,11 @@ def _lines(ax: Axes, panel: Panel, name: str | None, block: int) -> np.ndarray:
     """Draw the lines of a panel; for all behaviours the extrinsic part apart where it differs. All block means."""
     found = []
     for line in panel.lines:
-        equal = {} if name is None else {"behaviour": name}
         series = {}
         for column in ("reward", "reward_extrinsic"):
-            x, values = by_episode(line.runs, "behaviours", column, block, **equal)
+            x, values = by_episode(line.runs, "behaviours", column, block, behaviour=name)
             if name is None and len(x):
-                values = values * line.runs.rows("behaviours")["behaviour"].nunique()
+                values = values * len(behaviours_of(line.runs, "train"))
             series[column] = values
         if not len(x):
             continue

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # Okabe & Ito's palette, without its yellow (too light for lines). The paper draws CR red and NCR blue.
 VERMILLION, BLUE = "#d55e00", "#0072b2"
 OTHERS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#882255", "#999933", "#44aa99", "#332288", "#aa4499")
-OWN = ("#e69f00", "#cc79a7", "#56b4e9", "#882255", "#999933", "#332288")  # for kinds and needs of an author
+OWN = ("#e69f00", "#cc79a7", "#f0e442", "#882255", "#999933")  # for what an author made up; away from green and blue
 DASHES = ("-", (0, (5, 1.6)), (0, (1.5, 1.2)), (0, (6, 1.4, 1.5, 1.4)))
 ROLE_COLOURS = {"litman": VERMILLION, "none": BLUE}
 WIDTH_IN = 8.6
