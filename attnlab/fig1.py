@@ -40,7 +40,7 @@ def timeline(folder: Path, behaviour: str = "give") -> pd.DataFrame:
 
 def draw(rows: pd.DataFrame, behaviour: str, path: Path) -> Path:
     """Three panels as in the paper: activations and period, speed, distance."""
-    from attnlab.report.style import BLUE, VERMILLION, drawing, save_png
+    from attnlab.figures.style import BLUE, VERMILLION, drawing, save_png
     with drawing():
         import matplotlib.pyplot as plt
         figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(8.6, 5.6), sharex=True)

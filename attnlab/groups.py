@@ -68,5 +68,7 @@ GROUPS: dict[str, Group] = {group.name: group for group in (
     Group("callback", "callbacks", "attnlab.callbacks.base:Callback", "watches a run and touches nothing",
           chosen="list", in_key=False),
     Group("cluster", "clusters", "attnlab.clusters.base:Cluster", "where the runs of a study are done", in_key=False),
+    Group("figure", "figures", "attnlab.figures.base:Figure", "a picture of a study and a sentence, on every page",
+          chosen="report", in_key=False),
     Group("measure", "measures", "attnlab.measures.base:Measure", "one number a seed, for claims", chosen="report"),
 )}

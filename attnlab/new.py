@@ -48,10 +48,13 @@ def write(group: str, name: str, folder: Path) -> list[Path]:
     return paths
 
 
-def how_to_run(group: str, name: str) -> str:
-    """The command that uses the new part."""
-    return {"behaviours": f"'behaviours=[avoid,eat,drink,{name}]'", "penalty": f"reading.penalised={name}"}.get(
+def how_to_use(group: str, name: str) -> str:
+    """A line with what uses the new part."""
+    typed = {"behaviours": f"'behaviours=[avoid,eat,drink,{name}]'", "penalty": f"reading.penalised={name}"}.get(
         group, f"{group}={name}")
+    return {"figure": "draw it    python -m attnlab.report STUDY",
+            "measure": f"name it    measure: {{name: {name}}}, in a claims file"}.get(
+        group, f"run it     python -m attnlab {typed}")
 
 
 def main(argv: Sequence[str]) -> int:
@@ -63,7 +66,7 @@ def main(argv: Sequence[str]) -> int:
     part, test = (path.relative_to(Path.cwd()) for path in write(group, given.name, Path.cwd()))
     print(f"{part}   the part\n{test}   its tests\n")
     print(f"test it    python -m pytest {test}\nsee it     python -m attnlab.parts {given.name}\n"
-          f"run it     python -m attnlab {how_to_run(group, given.name)}")
+          f"{how_to_use(group, given.name)}")
     return 0
 
 

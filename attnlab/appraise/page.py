@@ -67,7 +67,7 @@ def write(table: pd.DataFrame, probed: Mapping[str, pd.DataFrame], names: Sequen
 def draw(table: pd.DataFrame, probed: Mapping[str, pd.DataFrame], names: Sequence[str], together: pd.DataFrame,
          path: Path) -> None:
     """Likings over the episode and in the probes, a row a model, and their correlations."""
-    from attnlab.report.style import BLUE, drawing, save_png
+    from attnlab.figures.style import BLUE, drawing, save_png
     with drawing():
         import matplotlib.pyplot as plt
         import seaborn as sns

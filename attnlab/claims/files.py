@@ -64,6 +64,11 @@ class Part:
     counts: bool = setting(True, "false: shown, but no part of the verdict")
     note: str = setting("", "shown beside it")
 
+    @property
+    def measure_name(self) -> str:
+        """Of the measure that it compares."""
+        return str(self.measure if isinstance(self.measure, str) else self.measure["name"])
+
     def __post_init__(self) -> None:
         if self.measure is None:
             raise ConfigError("measure", "is missing", "Write measure: {name: survival}")

@@ -15,22 +15,15 @@ from attnlab.tables.schema import row_bytes
 def check_place(jobs: Sequence[Job]) -> None:
     """Raise ConfigError if the results cannot be written or would not fit. Leaves nothing behind."""
     folder = jobs[0].folder.parent
-    made = []
     try:
-        for path in [*reversed(folder.parents), folder]:
-            if not path.exists():
-                path.mkdir()
-                made.append(path)
-        probe = folder / f".probe.{os.getpid()}"
-        probe.touch()
-        probe.unlink()
+        there = next(path for path in (folder, *folder.parents) if path.exists())
+        probe = there / f".probe.{os.getpid()}"  # a name of its own: another command may be checking the same place
+        probe.mkdir()
+        probe.rmdir()
     except OSError as cause:
         raise ConfigError("outputs", f"{folder} cannot be written ({cause.strerror or cause})",
                           "Choose a folder of yours: outputs=...") from None
-    finally:
-        free = _free_bytes(folder)
-        for path in reversed(made):
-            path.rmdir()
+    free = shutil.disk_usage(there).free
     largest = max(jobs, key=lambda job: job.episodes)
     s = largest.settings
     a_row = row_bytes("episodes", len(s.behaviours)) + row_bytes("behaviours", len(s.behaviours))
@@ -40,12 +33,6 @@ def check_place(jobs: Sequence[Job]) -> None:
             setting = "train_episodes" if s.train_episodes >= s.validation_episodes else "validation_episodes"
             raise ConfigError(setting, f"{largest.episodes} episodes a run would need about {need / 1e9:.0f} GB of "
                               f"{what} {have / 1e9:.0f} GB", "Ask for fewer")
-
-
-def _free_bytes(folder: Path) -> int:
-    while not folder.exists():
-        folder = folder.parent
-    return shutil.disk_usage(folder).free
 
 
 def _memory() -> int:

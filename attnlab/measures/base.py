@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
+
+from attnlab.measures import frames
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,7 +20,7 @@ class CannotMeasure(Exception):
     """The runs lack what a measure needs; the message says what, in words for a reader of the report."""
 
 
-class Measure:
+class Measure(ABC):
     """One number a seed. Subclass it, register it as ``@register("measure", "mine")``, name it in a claims file.
 
         @register("measure", "meals")
@@ -25,36 +28,48 @@ class Measure:
             '''Meals an episode.'''
             unit = "meals"
             def of(self, runs):
-                return self.means(self.episodes(runs, "validation"), "meals")
+                return self.mean_of(runs, "meals", "validation")
 
-    ``unit`` may be set in ``__init__`` when it depends on the parameters. Draws nothing at random; a measure that must
-    draw takes its own fixed seed, so that a report is the same twice.
+    ``unit`` may be set in ``__init__`` when it depends on the parameters. ``compares_seeds``: is a seed's value about
+    how it differs from the others, so that it changes with them? Draws nothing at random; a measure that must draw
+    takes its own fixed seed, so that a report is the same twice.
     """
     unit = "1"
+    compares_seeds = False
 
     def __init__(self, params: Any, context: Any = None):
         self.params = params
 
+    @abstractmethod
     def of(self, runs: Runs) -> Mapping[int, float]:
         """Seed -> value; nan for a seed that has none. Raises :class:`CannotMeasure` if no seed can have one."""
-        raise NotImplementedError
 
     # for subclasses
 
     @staticmethod
-    def episodes(runs: Runs, phase: str, within: list[int] | None = None, table: str = "episodes",
-                 **equal: Any) -> pd.DataFrame:
+    def check_episodes(runs: Runs, phase: str, within: Sequence[int] | None = None, table: str = "episodes"
+                       ) -> frames.Window:
+        """Raise CannotMeasure unless there are episodes of this phase, and all of ``within`` = [first, end)."""
+        counts = frames.of_seeds(runs, frames.episode_counts(runs.conditions, table, phase))
+        if not counts:
+            raise CannotMeasure(f"there are no {phase} episodes")
+        if within and max(counts.values()) < within[1]:
+            raise CannotMeasure(f"needs {within[1]} {phase} episodes, the study has {max(counts.values())}")
+        return (within[0], within[1]) if within else None
+
+    @classmethod
+    def mean_of(cls, runs: Runs, column: str, phase: str, within: Sequence[int] | None = None) -> dict[int, float]:
+        """Mean of a column of ``episodes`` for each seed."""
+        window = cls.check_episodes(runs, phase, within)
+        return frames.of_seeds(runs, frames.episode_means(runs.conditions, column, phase, window))
+
+    @classmethod
+    def episodes(cls, runs: Runs, phase: str, within: Sequence[int] | None = None, table: str = "episodes"
+                 ) -> pd.DataFrame:
         """Rows of a phase; ``within``: [first, end) of the episodes, which all must be there."""
-        rows = runs.rows(table, phase=phase, **equal)
-        if not len(rows):
-            what = "".join(f" of {value}" for value in equal.values())
-            raise CannotMeasure(f"there are no {phase} episodes{what}")
-        if within:
-            has = int(rows["episode"].max()) + 1
-            if has < within[1]:
-                raise CannotMeasure(f"needs {within[1]} {phase} episodes, the study has {has}")
-            rows = rows[(rows["episode"] >= within[0]) & (rows["episode"] < within[1])]
-        return rows
+        cls.check_episodes(runs, phase, within, table)
+        rows = runs.rows(table, phase=phase)
+        return rows[(rows["episode"] >= within[0]) & (rows["episode"] < within[1])] if within else rows
 
     @staticmethod
     def means(rows: pd.DataFrame, column: str) -> dict[int, float]:
@@ -64,10 +79,10 @@ class Measure:
     @staticmethod
     def last_cycles(runs: Runs) -> dict[int, pd.DataFrame]:
         """The cycles of each seed's last recorded episode."""
-        rows = runs.rows("cycles")
-        if not len(rows):
+        found = frames.of_seeds(runs, frames.last_cycles(runs.conditions))
+        if not found:
             raise CannotMeasure("no cycles were recorded (record=last stores those of the last episode)")
-        return {int(seed): group for seed, group in rows.groupby("seed")}
+        return found
 
 
 def window(value: list[int] | None, where: str) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from attnlab.measures.base import PHASES, CannotMeasure, Measure
+from attnlab.measures.needs import OF_THE_PAPER, falls
 from attnlab.registry import register
 from attnlab.settings import setting
 
@@ -16,14 +17,10 @@ if TYPE_CHECKING:
 
 def consumed(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
     """(cycles of the meals, cycles of the drinks): where hunger and thirst fall."""
-    import numpy as np
-    found = []
-    for need in ("hunger", "thirst"):
-        values = rows[need].to_numpy(float)
-        if np.isnan(values).any():
+    for need in OF_THE_PAPER:
+        if rows[need].isna().any():
             raise CannotMeasure(f"the robot has no {need}")
-        found.append(np.flatnonzero(np.diff(values) < -1e-9) + 1)
-    return found[0], found[1]
+    return falls(rows, "hunger"), falls(rows, "thirst")
 
 
 @register("measure", "energy_margin")
@@ -38,7 +35,7 @@ class EnergyMargin(Measure):
 
     def of(self, runs):
         well = runs.reading().energy_well
-        values = self.means(self.episodes(runs, self.params.phase), f"energy_{self.params.of}")
+        values = self.mean_of(runs, f"energy_{self.params.of}", self.params.phase)
         return {seed: value - well for seed, value in values.items()}
 
 

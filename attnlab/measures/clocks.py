@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from attnlab.measures.base import PHASES, Measure
-from attnlab.measures.rewards import BEHAVIOUR, summed
+from attnlab.measures.rewards import BEHAVIOUR, behaviours_of, mean_sums
 from attnlab.registry import register
 from attnlab.settings import setting
 
@@ -23,10 +23,10 @@ class Activations(Measure):
 
     def of(self, runs):
         p = self.params
-        found = self.means(summed(runs, p.phase, p.behaviour, "activations"), "value")
+        found = mean_sums(runs, p.phase, p.behaviour, "activations")
         if p.minus:
-            less = self.means(summed(runs, p.phase, p.minus, "activations"), "value")
-            found = {seed: found[seed] - less[seed] for seed in found}
+            less = mean_sums(runs, p.phase, p.minus, "activations")
+            found = {seed: found[seed] - less[seed] for seed in found if seed in less}
         return found
 
 
@@ -42,9 +42,9 @@ class ActivationSaving(Measure):
 
     def of(self, runs):
         p = self.params
-        acts = self.means(summed(runs, p.phase, p.behaviour, "activations"), "value")
-        cycles = self.means(self.episodes(runs, p.phase), "cycles")
-        names = runs.rows("behaviours")["behaviour"].nunique() if p.behaviour == "all" else len(p.behaviour.split("+"))
+        acts = mean_sums(runs, p.phase, p.behaviour, "activations")
+        cycles = self.mean_of(runs, "cycles", p.phase)
+        names = len(behaviours_of(runs, p.phase) if p.behaviour == "all" else p.behaviour.split("+"))
         return {seed: 100 * (1 - acts[seed] / (names * cycles[seed])) for seed in acts}
 
 
@@ -59,8 +59,8 @@ class Overlap(Measure):
 
     def of(self, runs):
         from attnlab.stats import overlap_ratio
-        acts = self.means(summed(runs, self.params.phase, "all", "activations"), "value")
-        union = self.means(self.episodes(runs, self.params.phase), "active_cycles")
+        acts = mean_sums(runs, self.params.phase, "all", "activations")
+        union = self.mean_of(runs, "active_cycles", self.params.phase)
         return {seed: 100 * overlap_ratio(acts[seed], union[seed]) for seed in acts}
 
 

@@ -7,41 +7,65 @@ from typing import TYPE_CHECKING
 
 from attnlab.errors import ConfigError
 from attnlab.measures.base import CannotMeasure, Measure
+from attnlab.measures.once import once_a_study
 from attnlab.registry import register
 from attnlab.settings import setting
 
 if TYPE_CHECKING:
     import numpy as np
 
+    from attnlab.results.conditions import Conditions, Runs
 
-def greedy(runs, behaviour: str, level: str = "any") -> dict[int, dict[int, int]]:
+
+@once_a_study
+def _levels(conditions: Conditions) -> dict[tuple[str, str], list[str]]:
+    """(run, behaviour) -> curiosity levels of its table, in their order."""
+    rows = conditions.frame("policy")
+    found: dict[tuple[str, str], list[str]] = {}
+    if len(rows):
+        tables = rows[["run", "behaviour", "curiosity_level"]].drop_duplicates()
+        for run, behaviour, level in tables.itertuples(index=False):
+            found.setdefault((run, behaviour), []).append(level)
+    return found
+
+
+@once_a_study
+def _learned(conditions: Conditions) -> dict[tuple[str, str, str], dict[int, int]]:
+    """(run, behaviour, curiosity level or any) -> percept -> learned period, as :func:`greedy` says."""
+    rows = conditions.frame("policy").astype({"behaviour": "category", "curiosity_level": "category"})
+    state = ["run", "behaviour", "curiosity_level", "period", "percept"]
+    groups = rows.groupby(state, observed=True)
+    visits, values = groups["visits"].sum(), groups["q"]
+    best = rows.loc[values.idxmax()].set_index(state)["action"]
+    votes = visits[(visits > 0) & (values.max() > values.min())].to_frame("visits")
+    votes["action"] = best.reindex(votes.index).to_numpy()  # an empty frame would take over the index of a series
+    votes = votes.reset_index()
+    found: dict[tuple[str, str, str], dict[int, int]] = {}
+    for any_level in (False, True):
+        of = votes.assign(curiosity_level="any") if any_level else votes
+        keys = ["run", "behaviour", "curiosity_level", "percept"]
+        total = of.groupby([*keys, "action"], observed=True, as_index=False)["visits"].sum()
+        total = total.sort_values([*keys, "visits", "action"]).drop_duplicates(keys, keep="last")
+        for run, behaviour, level, percept, action in total[[*keys, "action"]].itertuples(index=False):
+            found.setdefault((run, behaviour, level), {})[int(percept)] = int(action)
+    return found
+
+
+def greedy(runs: Runs, behaviour: str, level: str = "any") -> dict[int, dict[int, int]]:
     """Seed -> percept -> learned period (mc). Percepts that a seed never visited, or in which it learned no preference
     (all values equal: a learner that does not learn), are left out.
 
     The state holds the last period too, so each percept has a row a period: every row votes for its best action with
     its visits. ``level``: a curiosity level, or any (all levels vote).
     """
-    rows = runs.rows("policy", behaviour=behaviour)
-    if not len(rows):
+    tables = _levels(runs.conditions)
+    known = [name for _, run in sorted(runs.runs.items()) for name in tables.get((run, behaviour), [])]
+    if not known:
         raise CannotMeasure(f"there is no table of a behaviour {behaviour}")
-    if level != "any":
-        known = list(dict.fromkeys(rows["curiosity_level"]))
-        rows = rows[rows["curiosity_level"] == level]
-        if not len(rows):
-            raise CannotMeasure(f"there is no curiosity level '{level}' (there are {', '.join(known)})")
-    state = ["seed", "curiosity_level", "period", "percept"]
-    visits = rows.groupby(state, sort=True)["visits"].sum()
-    best = rows.loc[rows.groupby(state, sort=True)["q"].idxmax()].set_index(state)["action"]
-    values = rows.groupby(state, sort=True)["q"]
-    votes = visits[(visits > 0) & (values.max() > values.min())].to_frame("visits")
-    votes["action"] = best.reindex(votes.index).to_numpy()  # an empty frame would take over the index of a series
-    votes = votes.reset_index()
-    total = votes.groupby(["seed", "percept", "action"])["visits"].sum().reset_index()
-    total = total.sort_values(["seed", "percept", "visits", "action"]).groupby(["seed", "percept"]).last()
-    found: dict[int, dict[int, int]] = {int(seed): {} for seed in runs.runs}
-    for (seed, percept), action in total["action"].items():
-        found[int(seed)][int(percept)] = int(action)
-    return found
+    if level not in ("any", *known):
+        raise CannotMeasure(f"there is no curiosity level '{level}' (there are {', '.join(dict.fromkeys(known))})")
+    found = _learned(runs.conditions)
+    return {int(seed): dict(found.get((run, behaviour, level), {})) for seed, run in runs.runs.items()}
 
 
 def in_words(policy: dict[int, int]) -> str:
@@ -112,6 +136,7 @@ class PolicyLevels(Measure):
     test ``permutation``: under "levels do not matter" the levels of a seed may be exchanged.
     """
     unit = "%"
+    compares_seeds = True
 
     @dataclass
     class Params:
@@ -124,7 +149,8 @@ class PolicyLevels(Measure):
     def tables(self, runs) -> np.ndarray:
         """Learned periods of shape (seeds, levels, cells), 0 where never visited."""
         import numpy as np
-        names = sorted(set(runs.rows("policy")["behaviour"]))
+        there = set(runs.runs.values())
+        names = sorted({name for run, name in _levels(runs.conditions) if run in there})
         bins = runs.reading().percept_bins
         table = np.zeros((len(runs.runs), len(self.params.levels), len(names) * bins), np.int64)
         for j, level in enumerate(self.params.levels):

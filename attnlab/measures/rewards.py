@@ -6,25 +6,71 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from attnlab.measures.base import PHASES, CannotMeasure, Measure, window
+from attnlab.measures.frames import Window, means, of_seeds, phase_rows, split, window_rows
+from attnlab.measures.once import once_a_study
 from attnlab.registry import register
 from attnlab.settings import setting
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas as pd
+
+    from attnlab.results.conditions import Conditions, Runs
 
 BEHAVIOUR = "a behaviour, several joined by + (eat+drink), or all"
 
 
-def summed(runs, phase: str, behaviour: str, column: str, within: list[int] | None = None) -> pd.DataFrame:
-    """(seed, episode, value): ``column`` of ``behaviours`` summed over the behaviours named."""
-    rows = Measure.episodes(runs, phase, within, table="behaviours")
+@once_a_study
+def _behaviours(conditions: Conditions, phase: str) -> dict[str, set[str]]:
+    """Run -> its behaviours."""
+    pairs = phase_rows(conditions, "behaviours", phase)[["run", "behaviour"]].drop_duplicates()
+    found: dict[str, set[str]] = {}
+    for run, name in pairs.itertuples(index=False):
+        found.setdefault(run, set()).add(name)
+    return found
+
+
+def behaviours_of(runs: Runs, phase: str) -> set[str]:
+    """Names of the behaviours that any of these runs has."""
+    return set().union(*of_seeds(runs, _behaviours(runs.conditions, phase)).values())
+
+
+@once_a_study
+def sums(conditions: Conditions, phase: str, behaviour: str, column: str, within: Window) -> pd.DataFrame:
+    """(run, episode, value) of all runs, in this order: ``column`` of ``behaviours`` summed over those named."""
+    rows = window_rows(conditions, "behaviours", phase, within)
     if behaviour != "all":
-        names, known = behaviour.split("+"), set(rows["behaviour"])
-        missing = sorted(set(names) - known)
-        if missing:
-            raise CannotMeasure(f"there is no behaviour {', '.join(missing)} (there are {', '.join(sorted(known))})")
-        rows = rows[rows["behaviour"].isin(names)]
-    return rows.groupby(["seed", "episode"], as_index=False)[column].sum().rename(columns={column: "value"})
+        rows = rows[rows["behaviour"].isin(behaviour.split("+"))]
+    found = rows.groupby(["run", "episode"], as_index=False, observed=True)[column].sum()
+    return found.rename(columns={column: "value"})
+
+
+@once_a_study
+def _means(conditions: Conditions, phase: str, behaviour: str, column: str, within: Window) -> dict[str, float]:
+    return means(sums(conditions, phase, behaviour, column, within), "value")
+
+
+@once_a_study
+def _curves(conditions: Conditions, behaviour: str, within: Window) -> dict[str, np.ndarray]:
+    """Run -> reward of each training episode of a window."""
+    found = split(sums(conditions, "train", behaviour, "reward", within))
+    return {run: rows["value"].to_numpy(float) for run, rows in found.items()}
+
+
+def _checked(runs: Runs, phase: str, behaviour: str, within: list[int] | None = None) -> Window:
+    """Raise CannotMeasure unless there are these episodes and these behaviours."""
+    window = Measure.check_episodes(runs, phase, within, table="behaviours")
+    known = behaviours_of(runs, phase)
+    missing = sorted(set(behaviour.split("+")) - known) if behaviour != "all" else []
+    if missing:
+        raise CannotMeasure(f"there is no behaviour {', '.join(missing)} (there are {', '.join(sorted(known))})")
+    return window
+
+
+def mean_sums(runs: Runs, phase: str, behaviour: str, column: str, within: list[int] | None = None) -> dict[int, float]:
+    """Seed -> ``column`` of ``behaviours`` summed over the behaviours named, mean over episodes."""
+    window = _checked(runs, phase, behaviour, within)
+    return of_seeds(runs, _means(runs.conditions, phase, behaviour, column, window))
 
 
 @register("measure", "reward")
@@ -45,7 +91,7 @@ class Reward(Measure):
     def of(self, runs):
         p = self.params
         column = "reward_extrinsic" if p.extrinsic else "reward"
-        return self.means(summed(runs, p.phase, p.behaviour, column, p.episodes), "value")
+        return mean_sums(runs, p.phase, p.behaviour, column, p.episodes)
 
 
 @register("measure", "reward_rise")
@@ -65,8 +111,8 @@ class RewardRise(Measure):
 
     def of(self, runs):
         p = self.params
-        late = self.means(summed(runs, "train", p.behaviour, "reward", p.late), "value")
-        early = self.means(summed(runs, "train", p.behaviour, "reward", p.early), "value")
+        late = mean_sums(runs, "train", p.behaviour, "reward", p.late)
+        early = mean_sums(runs, "train", p.behaviour, "reward", p.early)
         return {seed: late[seed] - early[seed] for seed in late if seed in early}
 
 
@@ -93,9 +139,8 @@ class RewardConvergence(Measure):
     def of(self, runs):
         from attnlab.stats import convergence_episode
         p, found = self.params, {}
-        rows = summed(runs, "train", p.behaviour, "reward", p.episodes).sort_values(["seed", "episode"])
-        for seed, group in rows.groupby("seed"):
-            values = group["value"].to_numpy()
+        curves = _curves(runs.conditions, p.behaviour, _checked(runs, "train", p.behaviour, p.episodes))
+        for seed, values in of_seeds(runs, curves).items():
             end = values[-p.end:].mean()
-            found[int(seed)] = p.episodes[0] + convergence_episode(values, p.block, end - (1 - p.share) * abs(end))
+            found[seed] = p.episodes[0] + convergence_episode(values, p.block, end - (1 - p.share) * abs(end))
         return found

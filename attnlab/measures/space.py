@@ -6,30 +6,48 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from attnlab.measures.base import PHASES, CannotMeasure, Measure
+from attnlab.measures.frames import of_seeds, phase_rows, split
+from attnlab.measures.once import once_a_study
 from attnlab.registry import register
 from attnlab.settings import setting
 
 if TYPE_CHECKING:
     import numpy as np
+    import pandas as pd
+
+    from attnlab.results.conditions import Conditions, Runs
 
 
-def visit_maps(runs, phase: str) -> dict[int, np.ndarray]:
+def visit_maps(runs: Runs, phase: str) -> dict[int, np.ndarray]:
     """Visits of the robot's centre by seed, arrays of shape (cells along x, cells along y) over the whole floor."""
+    there = of_seeds(runs, _visited(runs.conditions, phase))
+    if not there:
+        raise CannotMeasure(f"no {phase} episodes left a coverage map")
+    found = {seed: _map(runs.conditions, phase, runs.runs[seed]) for seed in there}
+    if any(visits is None for visits in found.values()):
+        raise CannotMeasure("the world of these runs cannot be built here, so its floor is not known")
+    return found
+
+
+@once_a_study
+def _visited(conditions: Conditions, phase: str) -> dict[str, pd.DataFrame]:
+    """Run -> cells that its robot visited."""
+    return split(phase_rows(conditions, "coverage", phase))
+
+
+@once_a_study
+def _map(conditions: Conditions, phase: str, run: str) -> np.ndarray | None:
+    """Visits of a run; None if its world cannot be built here."""
     import numpy as np
 
     from attnlab.tables.schema import CELL_M
-    rows = runs.rows("coverage", phase=phase)
-    if not len(rows):
-        raise CannotMeasure(f"no {phase} episodes left a coverage map")
-    found = {}
-    for seed, group in rows.groupby("seed"):
-        layout = runs.conditions.layout(runs.runs[int(seed)])
-        if layout is None:
-            raise CannotMeasure("the world of these runs cannot be built here, so its floor is not known")
-        visits = np.zeros([int(np.ceil(size / CELL_M - 1e-9)) for size in (layout.width_m, layout.depth_m)])
-        visits[group["x_cell"], group["y_cell"]] = group["visits"]
-        found[int(seed)] = visits
-    return found
+    layout = conditions.layout(run)
+    if layout is None:
+        return None
+    cells = _visited(conditions, phase)[run]
+    visits = np.zeros([int(np.ceil(size / CELL_M - 1e-9)) for size in (layout.width_m, layout.depth_m)])
+    visits[cells["x_cell"].to_numpy(), cells["y_cell"].to_numpy()] = cells["visits"].to_numpy()
+    return visits
 
 
 @dataclass

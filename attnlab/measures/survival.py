@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from attnlab.measures.base import PHASES, Measure, window
+from attnlab.measures.frames import Window, of_seeds, split, window_rows
+from attnlab.measures.needs import UNIT
+from attnlab.measures.once import once_a_study
 from attnlab.registry import register
 from attnlab.settings import setting
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from attnlab.results.conditions import Conditions
 
 
 @register("measure", "survival")
@@ -23,8 +32,8 @@ class Survival(Measure):
             window(self.episodes, "episodes")
 
     def of(self, runs):
-        rows = self.episodes(runs, self.params.phase, self.params.episodes)
-        return {seed: 100 * value for seed, value in self.means(rows, "survival").items()}
+        found = self.mean_of(runs, "survival", self.params.phase, self.params.episodes)
+        return {seed: 100 * value for seed, value in found.items()}
 
 
 @register("measure", "survival_convergence")
@@ -47,9 +56,15 @@ class SurvivalConvergence(Measure):
     def of(self, runs):
         from attnlab.stats import convergence_episode
         p = self.params
-        rows = self.episodes(runs, "train", p.episodes).sort_values("episode")
-        return {int(seed): p.episodes[0] + convergence_episode(100 * group["survival"].to_numpy(), p.block, p.level)
-                for seed, group in rows.groupby("seed")}
+        curves = of_seeds(runs, _curves(runs.conditions, self.check_episodes(runs, "train", p.episodes)))
+        return {seed: p.episodes[0] + convergence_episode(curve, p.block, p.level) for seed, curve in curves.items()}
+
+
+@once_a_study
+def _curves(conditions: Conditions, within: Window) -> dict[str, np.ndarray]:
+    """Run -> survival (%) of each training episode of a window."""
+    rows = window_rows(conditions, "episodes", "train", within).sort_values(["run", "episode"])
+    return {run: 100 * group["survival"].to_numpy(float) for run, group in split(rows).items()}
 
 
 @register("measure", "episode")
@@ -58,6 +73,7 @@ class Episode(Measure):
 
     UNITS = {"survival": "1", "cycles": "mc", "active_cycles": "mc", "meals": "meals", "drinks": "drinks",
              "path_m": "m", "wanting_mean": "1"}
+    PREFIXES = {"safety": "1", "energy": "UoE"}
 
     @dataclass
     class Params:
@@ -71,15 +87,16 @@ class Episode(Measure):
     def __init__(self, params, context=None):
         super().__init__(params, context)
         column = params.column
-        prefix = {"safety": "1", "energy": "UoE", "hunger": "UoE", "thirst": "UoE"}.get(column.partition("_")[0])
-        self.unit = self.UNITS.get(column) or prefix or ""
+        of_a_need = UNIT if column.endswith(("_mean", "_max")) else ""  # also of one that a behaviour brings
+        self.unit = self.UNITS.get(column) or self.PREFIXES.get(column.partition("_")[0]) or of_a_need
 
     def of(self, runs):
         from pandas.api.types import is_numeric_dtype
 
         from attnlab.errors import ConfigError, nearest
-        rows, column = self.episodes(runs, self.params.phase, self.params.episodes), self.params.column
-        numbers = [name for name in rows.columns if is_numeric_dtype(rows[name])]
-        if column not in numbers:
+        self.check_episodes(runs, self.params.phase, self.params.episodes)
+        rows, column = runs.conditions.frame("episodes"), self.params.column
+        if column not in rows or not is_numeric_dtype(rows[column]):
+            numbers = [name for name in rows.columns if is_numeric_dtype(rows[name])]
             raise ConfigError("measure.column", f"episodes has no number column '{column}'", nearest(column, numbers))
-        return self.means(rows, column)
+        return self.mean_of(runs, column, self.params.phase, self.params.episodes)

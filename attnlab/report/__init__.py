@@ -25,11 +25,12 @@ def build_report(study_path: str | Path, out: str | Path | None = None, claims: 
 
 def survival_picture(study_path: str | Path) -> Path:
     """Draw survival against episodes (mean over seeds, 95 % band, a line a condition) to ``<study>/survival.png``."""
-    from attnlab.report.curves import survival
-    from attnlab.report.style import drawing, save_png
+    from attnlab.figures.base import FigureContext
+    from attnlab.figures.style import drawing, save_png
+    from attnlab.figures.survival import Survival
     from attnlab.results.conditions import Conditions
     from attnlab.results.load import load
     study = load(study_path)
     with drawing():
-        figure = survival(Conditions(study))
+        figure = Survival(None, FigureContext()).draw(Conditions(study))
         return save_png(figure, study.path / "survival.png")

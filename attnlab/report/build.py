@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import warnings
 from collections import Counter
 from collections.abc import Collection
@@ -13,10 +12,11 @@ from attnlab.claims import DEFAULT
 from attnlab.claims.files import Claims, load_claims
 from attnlab.claims.judge import Verdict, judge
 from attnlab.errors import ConfigError
-from attnlab.report import glance, multiverse, provenance, table5, verdicts
-from attnlab.report.figures import FIGURES, Figure
+from attnlab.figures.base import FigureContext, gallery
+from attnlab.figures.style import drawing
+from attnlab.report import drawn, glance, multiverse, provenance, table5, verdicts
+from attnlab.report.captions import load_captions
 from attnlab.report.page import Section, Shown, nothing_testable, page, table
-from attnlab.report.style import drawing, png_bytes, svg_bytes
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study, load
 from attnlab.tables.files import write_bytes
@@ -29,6 +29,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     if not len(study.runs):
         raise ConfigError(str(study.path), "is no study: there are no runs in it", "Give a folder of outputs/")
     claims = load_claims(claims_name or _claims_of(study))
+    captions = load_captions(claims.path)
     conditions = Conditions(study, claims.labels)
     others = Conditions(load(baselines)) if baselines else None
     target = Path(out) if out else study.path / "report"
@@ -42,8 +43,8 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     first = judged.get(telling) or next(iter(judged.values()), [])
     with drawing(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
-        shown = [_draw(figure, conditions, others, judged.get(telling, []), target) for figure in FIGURES
-                 if conditions.strata and (only is None or figure.key in only)]
+        wanted = [name for name in gallery() if conditions.strata and (only is None or name in only)]
+        shown = drawn.draw(wanted, FigureContext(others), conditions, captions, judged.get(telling, []), target)
         tables = _tables(claims, conditions, target)
         sections = _sections(study, conditions, judged, telling, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
@@ -53,6 +54,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     notes = provenance.notes(study, conditions, claims)
     if not conditions.strata:
         notes.insert(0, "there is no complete run in this study, so there is nothing to draw or to judge")
+    notes += [f"the figure '{figure.title}' is not drawn: {figure.failed}" for figure in shown if figure.failed]
     text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first,
                 telling if telling is not None and len(judged) > 1 else "", shown,
                 sections, provenance.block(study, conditions, claims))
@@ -67,34 +69,6 @@ def _claims_of(study: Study) -> str:
     names = Counter((study.about(run).get("claims") or {}).get("name") for run in study.complete)
     names.pop(None, None)
     return min(names, key=lambda name: (-names[name], name), default=DEFAULT)
-
-
-def _draw(figure: Figure, conditions: Conditions, others: Conditions | None, judged: list[Verdict],
-          target: Path) -> Shown:
-    extra = (others,) if figure.key == "attention_economics" else ()
-    png = _save(figure.draw(conditions, *extra), figure.key, target)
-    ids = [v.id for v in judged if _shows(figure, v)]
-    return Shown(figure.key, figure.title, figure.paper, figure.say(conditions, *extra), png, ids)
-
-
-def _save(drawn, key: str, target: Path) -> bytes:
-    """Write a figure as PNG and SVG, close it, return the PNG."""
-    import matplotlib.pyplot as plt
-    png = png_bytes(drawn)
-    write_bytes(target / "figures" / f"{key}.png", png)
-    drawn.set_layout_engine("none")  # everything has its place now; laying it out again would take as long as drawing
-    write_bytes(target / "figures" / f"{key}.svg", svg_bytes(drawn))
-    plt.close(drawn)
-    return png
-
-
-def _shows(figure: Figure, verdict: Verdict) -> bool:
-    """Does the figure show what a claim is about? By the place in the paper; policies by the measure."""
-    names = [p.part.measure if isinstance(p.part.measure, str) else p.part.measure["name"] for p in verdict.parts]
-    if any(name.startswith("policy") for name in names):
-        return figure.key == "policies"
-    number = re.match(r"Fig (\d+)", figure.title)
-    return number is not None and re.search(rf"\bFig {number[1]}(?!\d)", verdict.claim.where) is not None
 
 
 def _tables(claims: Claims, conditions: Conditions, target: Path) -> list[tuple[str, list[table5.Row]]]:
@@ -153,8 +127,7 @@ def _multiverse(found: multiverse.Multiverse, target: Path) -> tuple[list[Shown]
     for key, title, draw, text in (
             ("multiverse_shares", "In how many readings each claim holds", multiverse.shares, said),
             ("multiverse_effects", "Which reading moves which claim", multiverse.effects_map, most)):
-        drawn = draw(found)
-        png = _save(drawn, key, target)
+        png = drawn.save(draw(found), key, target)
         shown.append(Shown(key, title, "Each open point of the text may be read in several ways; the paper ran one.",
                            text, png))
     return shown, multiverse.section(found)

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from attnlab.claims.judge import REPRODUCED, UNTESTABLE, Verdict
+from attnlab.figures.style import GREY, WIDTH_IN, cut
 from attnlab.report.page import Section, table
-from attnlab.report.style import GREY, WIDTH_IN, cut
 from attnlab.results.conditions import Conditions
 from attnlab.stats import bootstrap_interval
 from attnlab.tables.flat import text

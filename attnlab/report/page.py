@@ -22,13 +22,17 @@ PROVENANCE = ("<!-- provenance:begin -->", "<!-- provenance:end -->")  # all tha
 
 @dataclass
 class Shown:
-    """A figure on the page. ``png``: its bytes; ``claims``: ids whose place in the paper it shows."""
+    """A figure on the page. ``paper``: what the paper shows there; ``found``: what was found here; ``png``: its bytes;
+    ``claims``: ids whose place in the paper it shows; ``how``: how to read it; ``failed``: why it could not be drawn.
+    """
     key: str
     title: str
     paper: str
-    found: str
-    png: bytes
+    found: str = ""
+    png: bytes = b""
     claims: list[str] = field(default_factory=list)
+    how: str = ""
+    failed: str = ""
 
 
 @dataclass
@@ -109,13 +113,18 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> st
 
 
 def _figure(shown: Shown, verdicts: Mapping[str, Verdict]) -> str:
+    if shown.failed:
+        return (f'<figure id="{escape(shown.key)}"><h3>{escape(shown.title)}</h3>'
+                f"<figcaption><p><b>Not drawn:</b> {escape(shown.failed)}</p></figcaption></figure>")
     data = base64.b64encode(shown.png).decode()
     mine = [verdicts[key] for key in shown.claims if key in verdicts]
     chips = " ".join(f'<a href="#claim-{escape(v.id)}">{chip(v.verdict, f"{v.id} {v.verdict}")}</a>' for v in mine)
     told = f"<p>{chips}</p>" if chips else ""
-    return (f'<figure id="{shown.key}"><h3>{escape(shown.title)}</h3>'
+    paper = f"<b>The paper:</b> {escape(shown.paper)}" if shown.paper else ""
+    about = " ".join(filter(None, [paper, escape(shown.how)]))
+    return (f'<figure id="{escape(shown.key)}"><h3>{escape(shown.title)}</h3>'
             f'<img alt="{escape(shown.title)}. {escape(shown.found)}" src="data:image/png;base64,{data}">'
-            f"<figcaption><p><b>The paper:</b> {escape(shown.paper)}</p><p><b>Here:</b> {escape(shown.found)}</p>{told}"
+            f"<figcaption>{f'<p>{about}</p>' if about else ''}<p><b>Here:</b> {escape(shown.found)}</p>{told}"
             "</figcaption></figure>")
 
 

@@ -10,6 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from attnlab.audit.table import Cell, Table
+from attnlab.measures.frames import means as run_means
+from attnlab.measures.frames import of_seeds, phase_rows, split
+from attnlab.measures.once import once_a_study
+from attnlab.measures.rewards import sums
 from attnlab.results.conditions import Conditions, Runs
 
 UNITS = {"energy": "UoE", "safety": "0-1", "hunger": "UoE", "thirst": "UoE", "reward": "UoR",
@@ -56,21 +60,26 @@ def rows(table: Table, conditions: Conditions, roles: Mapping[str, Runs]) -> lis
 
 
 def _here(quantity: str, runs: Runs) -> tuple[float, float] | None:
+    import pandas as pd
+    means, values = (of_seeds(runs, of) for of in _by_run(runs.conditions, quantity))
+    episodes = pd.Series(np.concatenate(list(values.values()))) if values else pd.Series(dtype=float)
+    if episodes.isna().all():
+        return None
+    spread = episodes.std(ddof=1) if len(episodes) > 1 else float("nan")
+    return float(pd.Series(means).mean()), float(spread)
+
+
+@once_a_study
+def _by_run(conditions: Conditions, quantity: str) -> tuple[dict[str, float], dict[str, np.ndarray]]:
+    """(run -> mean, run -> values) of a quantity in the validation episodes."""
     group, _, behaviour = quantity.partition(".")
     if behaviour:
-        frame = runs.rows("behaviours", phase="validation")
-        if behaviour != "global":
-            frame = frame[frame["behaviour"] == behaviour]
-        values = frame.groupby(["seed", "episode"])[group].sum().rename("value").reset_index()
+        rows = sums(conditions, "validation", "all" if behaviour == "global" else behaviour, group, None)
     else:
-        frame = runs.rows("episodes", phase="validation")
-        if quantity not in frame:
-            return None
-        values = frame[["seed", "episode", quantity]].rename(columns={quantity: "value"})
-    if not len(values) or values["value"].isna().all():
-        return None
-    spread = values["value"].std(ddof=1) if len(values) > 1 else float("nan")
-    return float(values.groupby("seed")["value"].mean().mean()), float(spread)
+        rows = phase_rows(conditions, "episodes", "validation").rename(columns={quantity: "value"})
+    if "value" not in rows or not len(rows):
+        return {}, {}
+    return run_means(rows, "value"), {run: mine["value"].to_numpy(float) for run, mine in split(rows).items()}
 
 
 def number(value: float | None, like: float | None = None, sign: bool = False) -> str:

@@ -68,11 +68,10 @@ def as_csv(judged: dict[str, list[Verdict]]) -> bytes:
     for stratum, verdicts in judged.items():
         for v in verdicts:
             for i, p in enumerate(v.parts):
-                measure = p.part.measure if isinstance(p.part.measure, str) else p.part.measure["name"]
                 numbers = [p.part.number, p.part.tolerance, p.levels.get("treatment"), p.levels.get("control"),
                            p.effect, p.p]
                 writer.writerow([stratum, v.id, v.claim.title, v.verdict, _plain(v.p), _plain(v.p_holm), i,
-                                 "yes" if p.part.counts else "no", measure, p.part.test, p.verdict,
+                                 "yes" if p.part.counts else "no", p.part.measure_name, p.part.test, p.verdict,
                                  *map(_plain, p.value), p.part.unit, *map(_plain, numbers), p.seeds, p.reason])
     return sink.getvalue().encode()
 

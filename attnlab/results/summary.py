@@ -27,14 +27,15 @@ def summary_frame(study: Study, named: Mapping[str, str]):
     episodes = episodes.assign(condition=episodes["run"].map(named))
     behaviours = behaviours.assign(condition=behaviours["run"].map(named))
     rows, names = [], study.behaviours["behaviour"].unique()
+    groups, clocks = (dict(list(frame.groupby("condition", sort=False))) for frame in (episodes, behaviours))
     for name in dict.fromkeys(named.values()):
-        group = episodes[episodes["condition"] == name]
-        if not len(group):
+        if name not in groups:
             continue
+        group = groups[name]
         train, valid = group[group["phase"] == "train"], group[group["phase"] == "validation"]
         half = (train["episode"].max() + 1) / 2
         shown = valid if len(valid) else train
-        acts = behaviours[(behaviours["condition"] == name) & (behaviours["phase"] == shown["phase"].iloc[0])]
+        acts = clocks[name][clocks[name]["phase"] == shown["phase"].iloc[0]]
         acts = acts.groupby("behaviour", sort=False)["activations"].mean().reindex(names)
         rows.append({
             "condition": name, "runs": group["run"].nunique(),

@@ -21,29 +21,37 @@ def distances(tables: Ints) -> Floats:
     return shares
 
 
-def _contrast(distance: Floats, level: Ints, seeds: int) -> Floats:
-    """For each seed: mean distance of its tables to other seeds' tables of other levels, less that of the same level.
+def _contrasts(distance: Floats, levels: Ints, seeds: int) -> Floats:
+    """For each seed: mean distance of its tables to other seeds' tables of other levels, less that of the same level;
+    nan for a seed without either. Shape (draws, seeds).
 
-    ``distance``: (seeds * levels, same), ``level``: the level of each table.
+    ``distance``: (seeds * levels, same), ``levels`` (draws, seeds * levels): the level of each table in each draw.
     """
-    of_seed = np.repeat(np.arange(seeds), len(level) // seeds)
-    others = of_seed[:, None] != of_seed[None, :]
-    same = level[:, None] == level[None, :]
-    usable = others & ~np.isnan(distance)
+    of_seed = np.repeat(np.arange(seeds), distance.shape[0] // seeds)
+    usable = (of_seed[:, None] != of_seed[None, :]) & ~np.isnan(distance)
     filled = np.where(usable, distance, 0.0)
-    values = np.full(seeds, np.nan)
-    for seed in range(seeds):
-        mine = of_seed == seed
-        between, within = (usable & ~same)[mine], (usable & same)[mine]
-        if between.any() and within.any():
-            values[seed] = filled[mine][between].mean() - filled[mine][within].mean()
-    return values
+
+    def within(amounts: Floats) -> Floats:
+        """Amounts between a seed's tables and those of others of the same level."""
+        total = np.zeros(levels.shape)
+        for level in np.unique(levels):
+            mine = (levels == level).astype(float)
+            total += mine * (mine @ amounts)
+        summed: Floats = total.reshape(len(levels), seeds, -1).sum(axis=2)
+        return summed
+    counts = usable.astype(float)
+    same, number = within(filled), within(counts)
+    all_same, all_number = (a.sum(axis=1).reshape(seeds, -1).sum(axis=1) for a in (filled, counts))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        contrasts: Floats = (all_same - same) / (all_number - number) - same / number
+    return contrasts
 
 
 def level_contrast(tables: Ints) -> Floats:
     """Between-level less within-level distance of each seed, shape (seeds,), from ``tables`` (seeds, levels, cells)."""
     seeds, levels, cells = tables.shape
-    return _contrast(distances(tables.reshape(seeds * levels, cells)), np.tile(np.arange(levels), seeds), seeds)
+    distance = distances(tables.reshape(seeds * levels, cells))
+    return _contrasts(distance, np.tile(np.arange(levels), seeds)[None, :], seeds)[0]
 
 
 def level_null(tables: Ints, draws: int = 1000, seed: int = 0) -> Floats:
@@ -52,4 +60,4 @@ def level_null(tables: Ints, draws: int = 1000, seed: int = 0) -> Floats:
     distance = distances(tables.reshape(seeds * levels, cells))
     rng = np.random.default_rng(seed)
     orders = rng.permuted(np.tile(np.arange(levels), (draws, seeds, 1)), axis=2).reshape(draws, -1)
-    return np.array([np.nanmean(_contrast(distance, order, seeds)) for order in orders])
+    return np.nanmean(_contrasts(distance, orders, seeds), axis=1)

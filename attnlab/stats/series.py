@@ -72,8 +72,9 @@ def overlap_null(active: npt.ArrayLike, draws: int = 200, seed: int = 0) -> npt.
     rng = np.random.default_rng(seed)
     at = [np.flatnonzero(trains[:, b]) for b in range(behaviours)]
     total = sum(train.size for train in at)
-    ratios = np.full(draws, np.nan)
-    for draw, shifts in enumerate(rng.integers(0, n, (draws, behaviours))):
-        together = np.concatenate([(train + shift) % n for train, shift in zip(at, shifts, strict=True)])
-        ratios[draw] = overlap_ratio(total, np.unique(together).size)
-    return ratios
+    if not total:
+        return np.full(draws, np.nan)
+    hit = np.zeros((draws, n), bool)
+    for train, shifts in zip(at, rng.integers(0, n, (draws, behaviours)).T, strict=True):
+        hit[np.arange(draws)[:, None], (train + shifts[:, None]) % n] = True
+    return (total - hit.sum(axis=1)) / total

@@ -100,8 +100,6 @@ OF_BEHAVIOUR = {  # of cycles, with the behaviour's name before it: avoid_active
     "percept": Column("int32", "", "as last seen, from 1"),
     "level": Column("string", "", "of curiosity, as last computed"),
 }
-COLUMNS = {table: {name: column.type for name, column in columns.items()} for table, columns in SCHEMA.items()}
-PER_BEHAVIOUR = {name: column.type for name, column in OF_BEHAVIOUR.items()}
 
 
 def columns_of(table: str, behaviours: Iterable[str], needs: Mapping[str, str],

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 from attnlab import registry
+from attnlab.figures.base import FigureContext
 from attnlab.loading import config_folders, load_all
 from attnlab.paths import conf_dir
 from attnlab.reading import Reading
@@ -62,11 +63,15 @@ def layout(seed: int = 0, name: str = "layout", **settings: Any) -> Layout:
 
 
 def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None = None, world: Layout | None = None,
-         behaviour: str = "avoid", levels: tuple[str, ...] = ("low", "LH", "HH"), **settings: Any) -> Any:
-    """The part ``group=name`` with ``settings``, under the reading ``how``; streams from ``seed``."""
-    r = reading(**(how or {}))
-    making = Making(r, seed, world or layout(), PERIODS, levels, behaviour)
-    return registry.make(group, node(group, name, **settings), making.context(group, name))
+         behaviour: str | None = None, levels: Sequence[str] | None = None, **settings: Any) -> Any:
+    """The part ``group=name`` with ``settings``, under the reading ``how``; streams from ``seed``. ``behaviour`` and
+    ``levels`` are a learner's context (AVOID with all three if left out), or settings of a measure."""
+    if group == "measure":
+        settings |= {name: value for name, value in (("behaviour", behaviour), ("levels", levels)) if value is not None}
+    making = Making(reading(**(how or {})), seed, world or layout(), PERIODS, tuple(levels or ("low", "LH", "HH")),
+                    behaviour or "avoid")
+    context = FigureContext() if group == "figure" else making.context(group, name)
+    return registry.make(group, node(group, name, **settings), context)
 
 
 def config(*, simulator: str = "planar", behaviours: tuple[str, ...] = ("avoid", "eat", "drink"),

@@ -7,7 +7,7 @@ from typing import Any
 
 from attnlab.errors import ConfigError
 from attnlab.groups import GROUPS
-from attnlab.testing import behaviour, body, common, curiosity, learner, penalty, watching, world
+from attnlab.testing import behaviour, body, common, curiosity, figure, learner, measure, penalty, watching, world
 from attnlab.testing.build import part_of
 
 Check = Callable[..., None]  # (name, **settings)
@@ -15,7 +15,7 @@ Check = Callable[..., None]  # (name, **settings)
 CHECKS: dict[str, tuple[Check, ...]] = {"curiosity": curiosity.CHECKS, "learner": learner.LEARNER,
                             "exploration": learner.EXPLORATION, "behaviours": behaviour.CHECKS, "needs": body.NEEDS,
                             "fusion": body.FUSION, "simulator": world.SIMULATOR, "world": world.WORLD,
-                            "penalty": penalty.CHECKS,
+                            "penalty": penalty.CHECKS, "measure": measure.CHECKS, "figure": figure.CHECKS,
                             "probe": watching.PROBE, "callback": watching.CALLBACK}
 
 

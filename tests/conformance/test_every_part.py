@@ -8,11 +8,15 @@ from attnlab.testing import checks
 from attnlab.testing.common import IN_A_RUN
 
 load_all()
-GROUPS = (*IN_A_RUN, "world", "penalty", "probe", "callback")
+GROUPS = (*IN_A_RUN, "world", "penalty", "measure", "figure", "probe", "callback")
 CASES = [(spec.group, option, check) for spec in registry.parts.values() if spec.group in GROUPS
          for option in (spec.name, *spec.presets) for check in checks(spec.group)]
 
-SMALL = {("learner", "evolution"): {"generations": 1, "population": 5, "episodes": 1}}  # the same, sooner
+SMALL = {("learner", "evolution"): {"generations": 1, "population": 5, "episodes": 1},  # the same, sooner
+         ("measure", "survival_convergence"): {"episodes": [0, 6], "block": 2},  # what a study of six episodes has
+         ("measure", "reward_convergence"): {"episodes": [0, 6], "block": 2, "end": 2},
+         ("measure", "reward_rise"): {"early": [0, 3], "late": [3, 6]},
+         ("measure", "policy_match"): {"least_bins": 1}, ("measure", "policy_levels"): {"levels": ["low", "LH"]}}
 
 
 @pytest.mark.parametrize(("group", "name", "check"), CASES, ids=["-".join(case) for case in CASES])

@@ -28,20 +28,21 @@ FLOORS = (
     # the two wings: what runs a robot, what reads a study
     ("robot", "results", "stats"),
     ("measures",),
+    ("figures",),
     ("claims", "audit"),
     ("report",),
     # what knows both
     ("launch",),
     ("clusters",),
     ("cli", "testing"),
-    ("certify", "appraise", "fig1", "parts", "new", "api", "__main__"),
+    ("certify", "appraise", "fig1", "plot", "parts", "new", "api", "__main__"),
 )
 TOP = {  # modules that are no commands
     "__init__", "api", "attention", "config", "console", "cycle", "equations", "errors", "groups", "loading", "paths",
     "plot", "reading", "registry", "settings", "streams"}
 COMMANDS = {"__main__", "fig1", "new", "parts"}  # thin modules for python -m; the others are packages with __main__
 NO_CODE = {"plugins", "templates"}
-ROBOT, READER = {"robot", "attention", "cycle"}, {"results", "stats", "measures", "claims", "audit", "report"}
+ROBOT, READER = {"robot", "attention", "cycle"}, {"results", "stats", "measures", "figures", "claims", "audit", "report"}
 LONGEST = 250
 HEAVY = ("pandas", "seaborn", "matplotlib", "scipy", "pybullet", "numba", "pyarrow")
 

@@ -8,7 +8,7 @@ import numpy as np
 import yaml
 
 from attnlab.tables.files import write_json, write_parquet
-from attnlab.tables.schema import COLUMNS, PER_BEHAVIOUR, SCHEMA_VERSION, columns_of
+from attnlab.tables.schema import OF_BEHAVIOUR, SCHEMA, SCHEMA_VERSION, columns_of
 
 BEHAVIOURS = ("avoid", "eat", "drink")
 WORLD = {"name": "paper", "part": "layout", "width_m": 4.0, "depth_m": 4.0,
@@ -24,9 +24,9 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
     folder.mkdir(parents=True)
     rng = np.random.default_rng([seed, curiosity == "litman"])
     swept, run = swept or {}, {"run": name, "seed": seed, "curiosity": curiosity}
-    tables = {table: {column: [] for column in columns} for table, columns in COLUMNS.items()}
+    tables = {table: {column: [] for column in columns} for table, columns in SCHEMA.items()}
     for behaviour in BEHAVIOURS:
-        for column in PER_BEHAVIOUR:
+        for column in OF_BEHAVIOUR:
             tables["cycles"][f"{behaviour}_{column}"] = []
 
     def add(table: str, **row) -> None:

@@ -14,7 +14,7 @@ import pytest
 
 from attnlab.results import load
 from attnlab.tables.processes import birth
-from attnlab.tables.schema import COLUMNS, TABLES
+from attnlab.tables.schema import SCHEMA, TABLES
 
 SHORT = ("simulator=planar", "train_episodes=3", "validation_episodes=2", "max_cycles=120", "picture=false",
          "report=false")
@@ -41,7 +41,7 @@ def test_the_papers_command_makes_the_contracts_tables(study):
     for table in TABLES:
         frame = getattr(result, table)
         assert len(frame), table
-        assert set(COLUMNS[table]) <= set(frame.columns), table
+        assert set(SCHEMA[table]) <= set(frame.columns), table
     assert len(result.runs) == 4
     assert len(result.episodes) == 4 * 5
     assert len(result.behaviours) == 4 * 5 * 3

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from attnlab.report.style import WIDTH_IN, colours, cut, dashes
-from attnlab.results.conditions import Conditions, Runs
+from attnlab.figures.style import WIDTH_IN, colours, cut, dashes
+from attnlab.measures.frames import of_seeds, phase_rows, split
+from attnlab.measures.once import once_a_study
 from attnlab.stats import bootstrap_band
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from attnlab.results.conditions import Conditions, Runs
 
 MOST_PANELS = 12
 
@@ -35,6 +37,7 @@ class Panel:
     lines: list[Line]
 
 
+@once_a_study
 def panels(conditions: Conditions) -> list[Panel]:
     """Lines are the curiosities, panels the other settings. Where a curiosity has no rival under the same settings, the
     first setting makes the lines: generations of attention share their axes, though only one of them is curious."""
@@ -61,6 +64,7 @@ def panels(conditions: Conditions) -> list[Panel]:
             for rest, lines in groups.items()]
 
 
+@once_a_study
 def one_line_each(conditions: Conditions) -> bool:
     """Does every combination of settings have one curiosity?"""
     return bool(conditions.settings) and all(sum(bool(conditions.runs(c, stratum).runs) for c in conditions.curiosities)
@@ -113,27 +117,33 @@ def band(ax: Axes, x: np.ndarray, values: np.ndarray, line: Line, label: bool = 
         ax.fill_between(x, low, high, color=line.colour, alpha=0.18, lw=0)
 
 
-def by_episode(runs: Runs, table: str, column: str | Callable, block: int, phase: str = "train",
-               **equal) -> tuple[np.ndarray, np.ndarray]:
+@once_a_study
+def _series(conditions: Conditions, table: str, column: str, phase: str, behaviour: str | None
+            ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Run -> (episodes, values of a column in them)."""
+    rows = phase_rows(conditions, table, phase)
+    rows = rows if behaviour is None else rows[rows["behaviour"] == behaviour]
+    return {run: (mine["episode"].to_numpy(), mine[column].to_numpy(float)) for run, mine in split(rows).items()}
+
+
+def by_episode(runs: Runs, table: str, column: str, block: int, phase: str = "train", behaviour: str | None = None
+               ) -> tuple[np.ndarray, np.ndarray]:
     """Block means: (episode at each block's end, values of shape (seeds, blocks)); nan where a seed has no episodes."""
-    rows = runs.rows(table, phase=phase, **equal)
-    if not len(rows):
+    series = of_seeds(runs, _series(runs.conditions, table, column, phase, behaviour))
+    if not series:
         return np.zeros(0), np.zeros((0, 0))
-    value = column(rows) if callable(column) else rows[column]
-    episode = rows["episode"].to_numpy()
-    blocks = -(-(int(episode.max()) + 1) // block)
-    seeds = sorted(runs.runs)
-    place = np.array([seeds.index(seed) for seed in seeds])
-    row = place[np.searchsorted(seeds, rows["seed"].to_numpy())]
-    cell = row * blocks + episode // block
-    y = value.to_numpy(float)
-    good = ~np.isnan(y)
-    total = np.bincount(cell[good], y[good], len(seeds) * blocks)
-    count = np.bincount(cell[good], minlength=len(seeds) * blocks)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        means = (total / count).reshape(len(seeds), blocks)
-    ends = np.minimum((np.arange(blocks) + 1) * block, int(episode.max()) + 1)
-    return ends, means
+    last = max(int(episode.max()) for episode, _ in series.values())
+    blocks = -(-(last + 1) // block)
+    means = np.full((len(runs.runs), blocks), np.nan)
+    for row, seed in enumerate(sorted(runs.runs)):
+        if seed in series:
+            episode, y = series[seed]
+            good = ~np.isnan(y)
+            total = np.bincount(episode[good] // block, y[good], blocks)
+            count = np.bincount(episode[good] // block, minlength=blocks)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                means[row] = total / count
+    return np.minimum((np.arange(blocks) + 1) * block, last + 1), means
 
 
 def block_of(conditions: Conditions, wanted: int, phase: str = "train") -> int:

@@ -4,21 +4,24 @@ are the same bytes for the same data."""
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+import zlib
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from attnlab.results.conditions import Conditions
 from attnlab.tables.files import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from attnlab.results.conditions import Conditions
+
 # Okabe & Ito's palette, without its yellow (too light for lines). The paper draws CR red and NCR blue.
 VERMILLION, BLUE = "#d55e00", "#0072b2"
 OTHERS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#882255", "#999933", "#44aa99", "#332288", "#aa4499")
+OWN = ("#e69f00", "#cc79a7", "#f0e442", "#882255", "#999933")  # for what an author made up; away from green and blue
 DASHES = ("-", (0, (5, 1.6)), (0, (1.5, 1.2)), (0, (6, 1.4, 1.5, 1.4)))
 ROLE_COLOURS = {"litman": VERMILLION, "none": BLUE}
 WIDTH_IN = 8.6
@@ -27,21 +30,29 @@ INK, GREY = "#222222", "#767676"
 
 
 @contextmanager
+def looks() -> Iterator[None]:
+    """Settings under which every figure is drawn: fixed identifiers, our type sizes."""
+    import matplotlib
+    import seaborn as sns
+    rc = {"svg.hashsalt": "attnlab", "svg.fonttype": "path", "font.family": "DejaVu Sans", "font.size": 9.5,
+          "axes.titlesize": 10.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 9.5,
+          "axes.edgecolor": "#999999", "axes.linewidth": 0.8, "axes.spines.top": False, "axes.spines.right": False,
+          "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "legend.frameon": False,
+          "legend.fontsize": 9, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "grid.color": "#e6e6e6",
+          "grid.linewidth": 0.7, "lines.linewidth": 1.8, "figure.dpi": DPI, "figure.constrained_layout.use": True,
+          "axes.formatter.useoffset": False, "text.parse_math": False}
+    with matplotlib.rc_context(), sns.axes_style("whitegrid", rc=rc):
+        matplotlib.rcParams.update(rc)
+        yield
+
+
+@contextmanager
 def drawing() -> Iterator[None]:
-    """Settings under which every figure is drawn: no display, fixed identifiers, our type sizes. Closes all after."""
+    """The same for figures that go to files: without a display. Closes all after."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    import seaborn as sns
-    looks = {"svg.hashsalt": "attnlab", "svg.fonttype": "path", "font.family": "DejaVu Sans", "font.size": 9.5,
-             "axes.titlesize": 10.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 9.5,
-             "axes.edgecolor": "#999999", "axes.linewidth": 0.8, "axes.spines.top": False, "axes.spines.right": False,
-             "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "legend.frameon": False,
-             "legend.fontsize": 9, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "grid.color": "#e6e6e6",
-             "grid.linewidth": 0.7, "lines.linewidth": 1.8, "figure.dpi": DPI, "figure.constrained_layout.use": True,
-             "axes.formatter.useoffset": False, "text.parse_math": False}
-    with matplotlib.rc_context(), sns.axes_style("whitegrid", rc=looks):
-        matplotlib.rcParams.update(looks)
+    with looks():
         try:
             yield
         finally:
@@ -54,6 +65,17 @@ def colours(names: Sequence[str]) -> dict[str, str]:
     chosen = {}
     for name in names:
         chosen[name] = ROLE_COLOURS.get(name) or free[len([n for n in chosen if n not in ROLE_COLOURS]) % len(free)]
+    return chosen
+
+
+def own_colours(names: Iterable[str], palette: Sequence[str] = OWN) -> dict[str, str]:
+    """A colour for each name that an author made up: the same in every figure and study, for it hangs on the name; the
+    next free one where two would share."""
+    chosen: dict[str, str] = {}
+    for name in sorted(set(names)):
+        wanted = zlib.crc32(name.encode()) % len(palette)
+        order = [*palette[wanted:], *palette[:wanted]]
+        chosen[name] = next((colour for colour in order if colour not in chosen.values()), order[0])
     return chosen
 
 

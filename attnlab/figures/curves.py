@@ -1,0 +1,65 @@
+"""Curves along training episodes: a panel a combination of settings, a line a condition."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from attnlab.figures.panels import Panel, band, block_of, by_episode, grid, legend, shown, title_of_lines
+from attnlab.figures.style import cut, empty, seeds_note
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from attnlab.results.conditions import Conditions
+
+MOST_ROWS = 4  # combinations of settings drawn where each takes a row of panels
+
+
+def one_curve(conditions: Conditions, name: str, column: str, wanted: int, unit: str, scale: float = 1.0,
+              over: Callable[[Axes, Panel], None] | None = None, **style: Any) -> Figure:
+    """``column`` of ``episodes`` times ``scale``, in means of ``wanted`` training episodes; ``over`` adds to a panel,
+    ``unit`` is the label of the axis."""
+    drawn, note = shown(conditions)
+    figure, axes = grid(max(1, len(drawn)), 3.5, sharex=True, sharey=True)
+    block = block_of(conditions, wanted)
+    for ax, panel in zip(axes, drawn, strict=False):
+        for line in panel.lines:
+            x, values = by_episode(line.runs, "episodes", column, block)
+            if np.isfinite(values).any():
+                band(ax, x, scale * values, line, **style)
+        if over:
+            over(ax, panel)
+        ax.set_title(cut(panel.title, 105 // min(3, len(drawn))))
+        ax.margins(x=0.02)
+        if not ax.lines:
+            empty(ax, f"no {column} in these runs")
+    if not drawn:
+        empty(axes[0], "no complete runs")
+    finish(figure, axes, conditions, name, block, unit, note)
+    return figure
+
+
+def rows_of_panels(conditions: Conditions) -> tuple[list[Panel], str]:
+    """Combinations of settings for a figure that gives each a row of panels, and a note if there are more."""
+    drawn, note = shown(conditions)
+    if len(drawn) > MOST_ROWS:
+        return drawn[:MOST_ROWS], f"The first {MOST_ROWS} combinations of settings are drawn."
+    return drawn, note
+
+
+def finish(figure: Figure, axes: list[Axes], conditions: Conditions, name: str, block: int, unit: str,
+           note: str) -> None:
+    """Labels, legend and heading of a figure along training episodes."""
+    figure.supylabel(unit, fontsize=9.5)
+    for ax in axes:
+        if ax.get_subplotspec().is_last_row():  # not the figure's own label: a legend below would lie upon it
+            ax.set_xlabel(f"training episodes (means of {block})" if block > 1 else "training episodes")
+        if ax.lines:  # an empty panel has no ticks to speak of
+            ax.xaxis.get_major_locator().set_params(integer=True)
+    legend(figure, axes, title_of_lines(conditions))
+    under = f"{seeds_note(conditions)}\n{note}" if note else seeds_note(conditions)
+    figure.suptitle(f"{name}\n{under}", x=0.01, ha="left", fontsize=9.5)

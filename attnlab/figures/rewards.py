@@ -1,0 +1,85 @@
+"""Fig 7: reward summed over an episode, by behaviour and in all, means of 10 training episodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from attnlab.figures.base import Figure
+from attnlab.figures.curves import finish, rows_of_panels
+from attnlab.figures.found import validation
+from attnlab.figures.panels import Panel, band, block_of, by_episode, grid
+from attnlab.figures.style import GREY, cut, empty
+from attnlab.measures.rewards import Reward, behaviours_of
+from attnlab.registry import register
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@register("figure", "rewards")
+class Rewards(Figure):
+    """Cumulative rewards along training, a panel a behaviour and one for all.
+
+    Penalties of -1500 would flatten everything else, so an axis ends a little below the bulk and says so.
+    """
+    title, order, place = "cumulative rewards", 70, "Fig 7"
+    how = "CR is paid on another scale (eq 4), so its extrinsic part is drawn too."
+
+    def draw(self, conditions):
+        drawn, note = rows_of_panels(conditions)
+        frame = conditions.frame("behaviours")
+        names = list(dict.fromkeys(frame["behaviour"])) if len(frame) else []
+        block = block_of(conditions, 10)
+        whole = [*names, None] if names else [None]
+        columns = len(whole) if len(drawn) > 1 or len(whole) > 4 else 2
+        figure, axes = grid(max(1, len(drawn)) * len(whole), 3.4 if len(drawn) > 1 else 5.4, columns, sharex=True)
+        for row, panel in enumerate(drawn):
+            for name, ax in zip(whole, axes[row * len(whole):], strict=False):
+                bulk = _lines(ax, panel, name, block)
+                _cut_axis(ax, bulk)
+                title = "all behaviours" if name is None else name.upper()
+                ax.set_title(cut(title if not panel.title else f"{title} ({panel.title})", 90 // columns))
+                ax.margins(x=0.02)
+        if not drawn:
+            empty(axes[0], "no complete runs")
+        finish(figure, axes, conditions, "Cumulative rewards", block, "reward of an episode, UoR", note)
+        return figure
+
+    def say(self, conditions):
+        return validation(conditions, [("reward ", Reward(Reward.Params())),
+                                       ("extrinsic part ", Reward(Reward.Params(extrinsic=True)))], " UoR an episode")
+
+
+def _lines(ax: Axes, panel: Panel, name: str | None, block: int) -> np.ndarray:
+    """Draw the lines of a panel; for all behaviours the extrinsic part apart where it differs. All block means."""
+    found = []
+    for line in panel.lines:
+        series = {}
+        for column in ("reward", "reward_extrinsic"):
+            x, values = by_episode(line.runs, "behaviours", column, block, behaviour=name)
+            if name is None and len(x):
+                values = values * len(behaviours_of(line.runs, "train"))
+            series[column] = values
+        if not len(x):
+            continue
+        band(ax, x, series["reward"], line)
+        found.append(series["reward"].ravel())
+        if not np.allclose(series["reward"], series["reward_extrinsic"], equal_nan=True):
+            ax.plot(x, np.nanmean(series["reward_extrinsic"], axis=0), color=line.colour, lw=1.1, ls=":",
+                    label=f"{line.name}, extrinsic part")
+    return np.concatenate(found) if found else np.zeros(0)
+
+
+def _cut_axis(ax: Axes, values: np.ndarray) -> None:
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return
+    low, bulk, high = values.min(), np.quantile(values, 0.25), values.max()
+    span = max(high - bulk, 1e-9)
+    floor = bulk - 2.0 * span
+    if low < floor:
+        ax.set_ylim(floor, high + 0.15 * span)
+        ax.text(0.985, 0.03, f"penalties reach down to {low:.0f}", transform=ax.transAxes, ha="right", va="bottom",
+                fontsize=8, color=GREY)

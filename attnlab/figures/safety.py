@@ -1,0 +1,20 @@
+"""Fig 9: mean safety (eq 13) of an episode, means of 10 training episodes."""
+
+from __future__ import annotations
+
+from attnlab.figures.base import Figure
+from attnlab.figures.curves import one_curve
+from attnlab.figures.found import start_and_end
+from attnlab.registry import register
+
+
+@register("figure", "safety")
+class Safety(Figure):
+    """Mean safety (eq 13) of an episode along training."""
+    title, order, place = "safety", 90, "Fig 9"
+
+    def draw(self, conditions):
+        return one_curve(conditions, "Safety (eq 13)", "safety_mean", 10, "mean safety of an episode, 0-1")
+
+    def say(self, conditions):
+        return start_and_end(conditions, "safety_mean", "", block=10, digits=2)

@@ -1,0 +1,21 @@
+"""Fig 6: survival time in % of the episode, means of 50 training episodes."""
+
+from __future__ import annotations
+
+from attnlab.figures.base import Figure
+from attnlab.figures.curves import one_curve
+from attnlab.figures.found import start_and_end
+from attnlab.registry import register
+
+
+@register("figure", "survival")
+class Survival(Figure):
+    """Survival time along training, in % of the episode."""
+    title, order, place = "survival", 60, "Fig 6"
+
+    def draw(self, conditions):
+        return one_curve(conditions, "Survival", "survival", 50, "survival time, % of the episode", 100.0, marker="o",
+                         ms=3.5)
+
+    def say(self, conditions):
+        return start_and_end(conditions, "survival", " %", 100)
