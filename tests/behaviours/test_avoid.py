@@ -66,12 +66,14 @@ def test_only_the_four_foremost_block_the_way(sonar):
 def test_blocked_it_keeps_to_its_side_until_the_way_is_free():
     avoid = make("behaviours", "avoid")
     left, right, free = echoes(s3=0.5), echoes(s4=0.5), echoes(s0=0.6)
-    assert command(left, avoid)[1] == -1.5
-    assert command(right, avoid)[1] == -1.5  # the other side now, but it goes on
+    assert [command(heard, avoid)[1] for heard in (left, right, left)] == [-1.5] * 3  # the other side, but it goes on
     assert command(free, avoid)[1] == pytest.approx(-0.16)
-    assert command(right, avoid)[1] == 1.5
-    avoid.start()
-    assert command(left, avoid)[1] == -1.5  # a new episode
+    assert command(left, avoid)[1] == -1.5
+    command(free, avoid)
+    assert [command(heard, avoid)[1] for heard in (right, left)] == [1.5] * 2
+    for first, turn in ((left, -1.5), (right, 1.5), (left, -1.5)):
+        avoid.start()  # a new episode
+        assert command(first, avoid)[1] == turn
 
 
 def test_in_a_corner_it_turns_left():

@@ -69,6 +69,7 @@ def test_heading_and_needs():
 def test_salience_of_a_hand():
     """1.5 m and 1 m/s are the ends of it; the greater of near and fast."""
     give = make("behaviours", "give")
+    assert (give.sigma_low, give.sigma_high) == (0.0, 1.0)
     for distance, speed, sigma in ((1.5, 0.25, 0.25), (0.75, 0.25, 0.5), (3.0, 0.0, 0.0), (0.0, 0.0, 1.0),
                                    (0.3, 2.0, 1.0)):
         assert give.percept(SimpleNamespace(simulator=SimpleNamespace(hand=lambda d=distance, v=speed: (d, v)))) \

@@ -43,6 +43,7 @@ def test_an_episode_begins_with_another_direction():
 def test_percept_is_the_free_way_ahead(sonar):
     """The four foremost, at 30 and 10 degrees on either side."""
     ahead = 2 <= sonar <= 5
+    assert (wander().sigma_low, wander().sigma_high) == (0.0, 2.0)
     assert wander().percept(Told(echoes(**{f"s{sonar}": 0.7}))) == (0.7 if ahead else 2.0)
 
 
