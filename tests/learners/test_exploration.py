@@ -53,7 +53,7 @@ def test_softmax_takes_the_best_if_rounding_leaves_nothing():
 
 @pytest.mark.parametrize("c", [1.0, 2.0])
 def test_ucb1_by_hand(c):
-    """20 trials, 15 and 5: by their uncertainty alone the second is ahead by c (sqrt(2 ln 20 / 5) - sqrt(2 ln 20 / 15)),
+    """20 trials, 15 and 5: by uncertainty alone the second is ahead by c (sqrt(2 ln 20 / 5) - sqrt(2 ln 20 / 15)),
     and a value that much higher makes up for it."""
     ucb, ahead = make("exploration", "ucb1", c=c), c * (sqrt(2 * log(20) / 5) - sqrt(2 * log(20) / 15))
     for more, best in ((-0.01, 1), (0.01, 0)):
