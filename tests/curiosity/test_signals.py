@@ -72,6 +72,20 @@ def test_with_a_single_percept_nothing_is_unknown():
         assert model.wanting(seen(model, [0, 0]), 4600.0) == 0.0
 
 
+def test_with_two_percepts_nothing_known_is_all_to_be_known():
+    model = make("curiosity", "litman_gap", how={"percept_bins": 2})
+    assert model.wanting(model.memory(), 0.0) == pytest.approx(1.0)
+
+
+def test_an_event_may_begin_at_any_percept():
+    """What follows is as unknown as ever: 1 - 1/6; before the first view there is no event."""
+    for first in range(5):
+        model = make("curiosity", "salience")
+        assert model.liking(model.memory(), first) == 0.0
+        assert model.liking(seen(model, [first]), first + 1) == pytest.approx(5 / 6)
+        assert model.liking(seen(model, [first]), first) == 0.0
+
+
 def shares(*counts):
     """The entropy of these counts, in nats."""
     return -sum(c / sum(counts) * log(c / sum(counts)) for c in counts)
