@@ -87,6 +87,13 @@ def test_double_q_asks_one_table_and_believes_the_other(coin, mine, other):
     assert made.visits[0] == [0, 1, 0, 0]
 
 
+def test_both_tables_of_double_q_begin_at_zero():
+    """One of them learns half of 4; the mean of both is 1."""
+    made = make("learner", "double_q", **HALF)
+    made.update(0, 1, 4.0, 5, -1, 4)
+    assert made.q[0] == [0.0, 1.0, 0.0, 0.0]
+
+
 def traced(lam=0.5, **settings):
     """Q(lambda) with alpha 0.5 and gamma 0.8, so that a trace fades by 0.4 a period."""
     return make("learner", "q_lambda", alpha=0.5, gamma=0.8, lam=lam, **settings)
