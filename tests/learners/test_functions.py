@@ -31,6 +31,19 @@ def test_a_change_counts_by_the_period_it_took(level, period, granted):
     assert PERIODS[learner.decide((level * 4 + period) * 6 + 1, None, None)] == granted
 
 
+def test_a_change_counts_by_what_it_was_before():
+    """From the first percept to the second, all of it, in 12 cycles: 12 / (1 + 20 / 12) = 4.5."""
+    learner = derivative(gain=20.0)
+    learner.decide(0, None, None)
+    assert PERIODS[learner.decide(3 * 6 + 1, None, None)] == 4
+
+
+def test_a_need_is_looked_at_most_when_it_is_greatest():
+    for name, ends in (("avoid", (1.0, 12.0)), ("eat", (12.0, 1.0)), ("drink", (12.0, 1.0)), ("give", (12.0, 1.0))):
+        function = make("learner", "monitor", behaviour=name).function
+        assert (function.lowest_mc, function.highest_mc) == ends
+
+
 @pytest.mark.parametrize(("wanted", "granted"), [
     (0.5, 1), (2.4, 1), (2.5, 1), (2.6, 4), (5.9, 4), (6.0, 4), (6.1, 8), (10.0, 8), (10.1, 12), (40.0, 12)])
 def test_the_nearest_period_and_the_shorter_of_two(wanted, granted):
@@ -38,9 +51,11 @@ def test_the_nearest_period_and_the_shorter_of_two(wanted, granted):
     assert {PERIODS[learner.decide(percept, None, None)] for percept in range(6)} == {granted}
 
 
-def test_a_single_percept_has_the_lowest_period():
+def test_one_percept_has_the_lowest_period_and_two_have_both():
     learner = make("learner", "monitor", how={"percept_bins": 1}, behaviours={"avoid": {"lowest_mc": 8.0}})
     assert PERIODS[learner.decide(0, None, None)] == 8
+    two = make("learner", "monitor", how={"percept_bins": 2})
+    assert [PERIODS[two.decide(percept, None, None)] for percept in (0, 1)] == [1, 12]
 
 
 def test_a_genome_holds_three_genes_a_behaviour():

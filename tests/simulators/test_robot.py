@@ -32,6 +32,7 @@ def test_the_body_as_published():
     """Wheels of 195 mm, 330 mm apart; a sonar hears from 0.1 m on; the camera looks at half the height of a cube."""
     assert (robot.WHEEL_RADIUS_M, robot.WHEEL_BASE_M) == (0.195 / 2, 0.33)
     assert (robot.SONAR_MIN_M, robot.CAMERA_HEIGHT_M) == (0.1, 0.5 / 2)
+    assert 0.0 < robot.SONAR_HEIGHT_M < 0.5  # so that it hears a cube
     assert robot.RADIUS_M < hypot(0.255, 0.027) < robot.RADIUS_M + 0.0065  # the rear sonars stand out by 6 mm
 
 
@@ -95,7 +96,7 @@ def test_a_cube_of_half_a_metre_by_its_height():
 
 @pytest.mark.parametrize(("rows", "half", "within"), [
     (60, 0.0, 0), (60, 0.49, 0), (60, 0.5, 2), (60, 1.49, 2), (60, 1.5, 4), (60, 29.4, 58), (60, 30.0, 60),
-    (60, 31.0, 60), (61, 0.0, 1), (61, 0.99, 1), (61, 1.0, 3), (61, 2.5, 5), (61, 29.9, 59), (61, 30.5, 61),
+    (60, 31.0, 60), (61, 0.0, 1), (61, 0.99, 1), (61, 1.0, 3), (61, 2.5, 5), (62, 1.0, 2), (63, 1.0, 3), (61, 29.9, 59), (61, 30.5, 61),
     (61, 40.0, 61)])
 def test_pixel_centres_near_the_middle_line(rows, half, within):
     """Of an even number of rows the nearest centres are half a pixel off the middle, of an odd number one is on it."""
