@@ -1,0 +1,52 @@
+"""Eq 12 with the current percept among the NV_tot observations (``novelty_counts_current``), and without it."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from attnlab.testing import make
+
+
+def likings(percepts, window, current, name="litman"):
+    model = make("curiosity", name, how={"novelty_window": window, "novelty_counts_current": current})
+    memory, found = model.memory(), []
+    for percept in percepts:
+        found.append(model.liking(memory, percept))
+        model.observe(memory, percept)
+    return found
+
+
+def test_counted_by_hand():
+    """Three observations. The first view is one of them: 1 - 1/3. The fourth 1 pushes a 1 out: still three, not four.
+    The 2 pushes out a 1, so that one 2 is left; then 1 comes back as the second of (1, 2, 1)."""
+    assert likings([1, 1, 1, 1, 2, 1], 3, True) == pytest.approx([2 / 3, 1 / 3, 0.0, 0.0, 2 / 3, 1 / 3])
+
+
+def test_not_counted_by_hand():
+    assert likings([1, 1, 1, 1, 2, 1], 3, False) == pytest.approx([1.0, 2 / 3, 1 / 3, 0.0, 1.0, 1 / 3])
+
+
+def test_what_is_pushed_out_matters_only_if_it_is_the_same():
+    """After 2, 1, 1 the window becomes 1, 1, 1: three of three. After 1, 2, 2 it becomes 2, 2, 1: one of three."""
+    assert likings([2, 1, 1, 1], 3, True)[-1] == 0.0
+    assert likings([1, 2, 2, 1], 3, True)[-1] == pytest.approx(2 / 3)
+
+
+def test_a_window_of_one_is_the_current_percept_alone():
+    assert likings([0, 0, 1, 0], 1, True) == [0.0, 0.0, 0.0, 0.0]
+    assert likings([0, 0, 1, 0], 1, False) == [1.0, 0.0, 1.0, 1.0]
+
+
+@given(st.lists(st.integers(0, 2), max_size=30), st.integers(1, 8), st.sampled_from(["litman", "none"]))
+@settings(max_examples=80, deadline=None)
+def test_it_is_the_share_in_the_last_observations(percepts, window, name):
+    """Literally: the share of the others among the last NV_tot, this one the last of them or the next to come."""
+    for current in (True, False):
+        found = likings(percepts, window, current, name)
+        for i, percept in enumerate(percepts):
+            end = i + 1 if current else i
+            seen = percepts[max(0, end - window):end].count(percept)
+            assert found[i] == pytest.approx(1.0 - seen / window)
+            assert 0.0 <= found[i] <= 1.0
