@@ -25,9 +25,10 @@ from attnlab.curiosity.base import Curiosity
 from attnlab.equations import avoid_reward, need_reward
 from attnlab.errors import ConfigError
 from attnlab.exploration.base import Exploration
+from attnlab.figures.base import Figure
 from attnlab.fusion.base import Fusion
 from attnlab.learners.base import Learner
-from attnlab.measures.base import CannotMeasure, Measure
+from attnlab.measures.base import CannotMeasure, Measure, Phase
 from attnlab.needs.base import Body, Need, Needs
 from attnlab.penalty.base import Penalty
 from attnlab.probes.base import Lived, Probe
@@ -45,8 +46,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Behaviour", "Blob", "Body", "Callback", "CannotMeasure", "Cluster", "Column", "Command", "ConfigError",
-    "Curiosity", "Exploration", "Fusion", "Layout", "Learner", "Lived", "Measure", "Need", "Needs", "Penalty",
-    "Probe", "Senses", "Simulator", "Solid", "Studies", "Study", "Tables", "World", "avoid_reward",
+    "Curiosity", "Exploration", "Figure", "Fusion", "Layout", "Learner", "Lived", "Measure", "Need", "Needs", "Penalty",
+    "Phase", "Probe", "Senses", "Simulator", "Solid", "Studies", "Study", "Tables", "World", "avoid_reward",
     "check_start", "compose", "load", "need_reward", "outer_walls", "register", "setting", "simulate", "stream",
     "sweep"]
 

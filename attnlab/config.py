@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from difflib import get_close_matches
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from attnlab import registry
-from attnlab.errors import ConfigError
+from attnlab.errors import ConfigError, nearest
+from attnlab.groups import GROUPS
 from attnlab.reading import Reading
 from attnlab.settings import build, cosmetics, setting
 from attnlab.worlds.base import Layout
@@ -62,12 +64,79 @@ class RunSettings:
     def __post_init__(self) -> None:
         if len(set(self.periods)) != len(self.periods) or not self.periods:
             raise ConfigError("periods", f"{self.periods} must be different whole numbers, at least one")
-        if not self.study or any(c in self.study for c in "/\\\0\n") or self.study.startswith("."):
+        if not self.study.strip() or not self.study.isprintable() or set(self.study) & set("/\\") or \
+                self.study.startswith("."):
             raise ConfigError("study", f"{self.study!r} cannot be the name of a folder")
+        if len(self.study.encode()) > LONGEST_NAME:
+            raise ConfigError("study", f"its name has {len(self.study.encode())} bytes", f"At most {LONGEST_NAME}")
+        if not self.outputs.strip() or not self.outputs.isprintable():
+            raise ConfigError("outputs", f"{self.outputs!r} cannot be a folder", "outputs=outputs")
+        words = list(self.labels.values())
+        for value, label in self.labels.items():
+            if not isinstance(label, (str, int, float)) or not str(label).strip():
+                raise ConfigError(f"labels.{value}", f"expected a word, got {label!r}")
+            if words.count(label) > 1:
+                raise ConfigError("labels", f"'{label}' would name two conditions", "Labels must differ")
 
 
 COSMETIC = cosmetics(RunSettings)
+LONGEST_NAME = 240  # bytes: a file's name has 255 at most, and a study may be copied as NAME_pybullet
 _layouts: dict[str, Layout] = {}
+
+
+def check_path(path: str) -> None:
+    """Raise ConfigError, with the nearest right name, unless some run can have a setting (or group) called ``path``."""
+    head, *rest = path.split(".")
+    if head not in RunSettings.__dataclass_fields__ or not all(rest):
+        raise no_such_setting(path)
+    group = GROUPS.get(head)
+    if group is None:
+        hint = Reading if head == "reading" else get_type_hints(RunSettings)[head]
+        _walk([hint], rest, path)
+        return
+    specs = [spec for spec in registry.parts.values() if spec.group == head]
+    if rest and group.chosen == "list":
+        options = [option for spec in specs for option in spec.options]
+        if rest[0] not in options:
+            raise ConfigError(path, f"no {head} is called '{rest[0]}'", nearest(rest[0], options))
+        specs, rest = [spec for spec in specs if rest[0] in spec.options], rest[1:]
+    if rest and rest[0] in ("name", "part"):
+        raise ConfigError(path, "a part is chosen by its group", group.typed("NAME"))
+    _walk([spec.params for spec in specs], rest, path)
+
+
+def _walk(owners: Sequence[Any], rest: Sequence[str], path: str) -> None:
+    """Raise ConfigError unless one of the types has a setting ``rest[0]``, that one ``rest[1]``, and so on."""
+    if not rest:
+        return
+    known: dict[str, list[Any]] = {}
+    for owner in owners:
+        for kind in (owner, *get_args(owner)):
+            if kind is Any or kind is dict or get_origin(kind) is dict:
+                return  # names of one's own
+            if dataclasses.is_dataclass(kind):
+                for name, hint in get_type_hints(kind).items():
+                    known.setdefault(name, []).append(hint)
+    if rest[0] not in known:
+        raise ConfigError(path, "no such setting", nearest(rest[0], known) if known else "It takes no settings")
+    _walk(known[rest[0]], rest[1:], path)
+
+
+def no_such_setting(path: str) -> ConfigError:
+    """The error for a setting whose first name is none: where one of its last name is, or the nearest first name."""
+    head, _, last = path.partition(".")
+    heads = list(RunSettings.__dataclass_fields__)
+    if last:
+        close = get_close_matches(head, heads, n=1)
+        return ConfigError(path, f"there is no '{head}'", f"Did you mean '{close[0]}.{last}'?" if close
+                           else nearest(head, heads))
+    nodes = {group.node(spec.name) for (name, _), spec in registry.parts.items() if (group := GROUPS[name]).in_run
+             and path in spec.params.__dataclass_fields__}
+    homes = ["reading"] if path in Reading.__dataclass_fields__ else sorted(nodes)
+    meant = " or ".join(f"'{node}.{path}'" for node in homes[:4])
+    if path == "penalty":
+        meant = "'reading.penalised' or 'reading.penalty'"
+    return ConfigError(path, "no such setting", f"Did you mean {meant}?" if meant else nearest(path, heads))
 
 
 def run_key(config: Mapping[str, Any]) -> str:

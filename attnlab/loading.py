@@ -11,8 +11,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from attnlab.errors import ConfigError, nearest
 from attnlab.groups import GROUPS
-from attnlab.paths import PACKAGE, plugins_dir
+from attnlab.paths import PACKAGE, conf_dir, plugins_dir
 from attnlab.registry import Spec, failures, parts
 
 ENTRY_POINTS = "attnlab.plugins"
@@ -33,6 +34,27 @@ def config_folders() -> list[Path]:
     plugins/ folders, and ``conf`` beside the module of a pip package's entry point. Call after :func:`load_all`."""
     beside = [Path(file).parent / "conf" for module in _packages if (file := sys.modules[module].__file__)]
     return [*plugin_folders(), *(folder for folder in beside if folder.is_dir())]
+
+
+def config_homes(group: str) -> list[Path]:
+    """The folders that hold the files of a group (claims, audit, world), ours first."""
+    load_all()
+    return [folder / group for folder in (conf_dir(), *config_folders()) if (folder / group).is_dir()]
+
+
+def named_file(group: str, name: str, setting: str) -> Path:
+    """The file of a group of files by its name (dinocera2014) or its path. Raises ConfigError naming ``setting``."""
+    path = Path(name)
+    if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
+        if path.is_file():
+            return path
+        raise ConfigError(f"{setting}={name}", "there is no such file")
+    homes = config_homes(group)
+    found = next((home / f"{name}.yaml" for home in homes if (home / f"{name}.yaml").is_file()), None)
+    if found is None:
+        raise ConfigError(f"{setting}={name}", f"no {group} file is called '{name}'",
+                          nearest(name, {file.stem for home in homes for file in home.glob("*.yaml")}))
+    return found
 
 
 def load_all() -> None:

@@ -15,16 +15,21 @@ from string import Template
 from attnlab import registry
 from attnlab.console import guarded
 from attnlab.errors import ConfigError, nearest
+from attnlab.groups import GROUPS
 from attnlab.loading import load_all
 from attnlab.paths import PACKAGE, plugins_dir
 
 TEMPLATES = PACKAGE / "templates"
-ALSO = {"behaviour": "behaviours", "learners": "learner", "worlds": "world", "need": "needs"}
 
 
 def groups() -> list[str]:
     """Groups a part can be started in."""
     return sorted(file.stem for file in TEMPLATES.glob("*.txt") if not file.stem.endswith("_test"))
+
+
+def by_any_name(word: str) -> str:
+    """The group that somebody means who types its singular or plural."""
+    return next((name for name in GROUPS if word.rstrip("s") == name.rstrip("s")), word)
 
 
 def write(group: str, name: str, folder: Path) -> list[Path]:
@@ -50,11 +55,11 @@ def write(group: str, name: str, folder: Path) -> list[Path]:
 
 def how_to_use(group: str, name: str) -> str:
     """A line with what uses the new part."""
-    typed = {"behaviours": f"'behaviours=[avoid,eat,drink,{name}]'", "penalty": f"reading.penalised={name}"}.get(
-        group, f"{group}={name}")
-    return {"figure": "draw it    python -m attnlab.report STUDY",
-            "measure": f"name it    measure: {{name: {name}}}, in a claims file"}.get(
-        group, f"run it     python -m attnlab {typed}")
+    kind = GROUPS[group]
+    if kind.in_report:
+        return {"figure": "draw it    python -m attnlab.report STUDY"}.get(
+            group, f"name it    measure: {{name: {name}}}, in a claims file")
+    return f"run it     python -m attnlab {kind.typed(name)}"
 
 
 def main(argv: Sequence[str]) -> int:
@@ -62,7 +67,7 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("group", help=", ".join(groups()))
     parser.add_argument("name", help="of the part, e.g. nap")
     given = parser.parse_args(argv)
-    group = ALSO.get(given.group, given.group)
+    group = by_any_name(given.group)
     part, test = (path.relative_to(Path.cwd()) for path in write(group, given.name, Path.cwd()))
     print(f"{part}   the part\n{test}   its tests\n")
     print(f"test it    python -m pytest {test}\nsee it     python -m attnlab.parts {given.name}\n"

@@ -24,12 +24,10 @@ Settings = TypeVar("Settings", bound="DataclassInstance")
 
 
 def setting(default: Any, doc: str, *, unit: str = "", low: float | None = None, high: float | None = None,
-            above: float | None = None, choices: tuple[Any, ...] | None = None, cosmetic: bool = False) -> Any:
+            above: float | None = None, cosmetic: bool = False) -> Any:
     """A dataclass field with its meaning, unit and range (``low``/``high`` inclusive, ``above`` exclusive).
     ``cosmetic``: it changes no number of a run."""
-    # choices: until every caller has a Literal
-    meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "choices": choices,
-            "cosmetic": cosmetic}
+    meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "cosmetic": cosmetic}
     if isinstance(default, (list, dict)) or dataclasses.is_dataclass(default):
         return dataclasses.field(default_factory=lambda: copy.copy(default), metadata=meta)
     return dataclasses.field(default=default, metadata=meta)
@@ -126,9 +124,6 @@ def _whole(value: float) -> bool:
 
 def _check_range(value: Any, meta: Mapping[str, Any], where: str) -> None:
     for item in value if isinstance(value, list) else [value]:
-        choices = meta.get("choices")  # until every caller has a Literal
-        if choices and item is not None and item not in choices:  # None passes where the type allows it
-            raise ConfigError(where, f"'{item}' is not one of its values", nearest(item, map(str, choices)))
         if not isinstance(item, (int, float)) or isinstance(item, bool):
             continue
         unit = f" {meta['unit']}" if meta.get("unit") else ""

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attnlab.errors import ConfigError, nearest
+from attnlab.loading import named_file
 from attnlab.settings import build, setting
 
 if TYPE_CHECKING:
@@ -81,25 +81,10 @@ class Table:
         return any(condition == c and quantity in cells for c, cells in self.undecided)
 
 
-def table_path(name: str | None) -> Path:
-    """A summary table by name (in conf/audit) or path. Raises ConfigError."""
-    from attnlab.paths import conf_dir
-    name = name or DEFAULT
-    path = Path(name)
-    if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
-        if not path.is_file():
-            raise ConfigError(name, "there is no such file")
-        return path
-    path = conf_dir() / "audit" / f"{name}.yaml"
-    if not path.is_file():
-        raise ConfigError(name, "there is no such table", nearest(name, [f.stem for f in path.parent.glob("*.yaml")]))
-    return path
-
-
 def load_table(name: str | None = None) -> Table:
     """The summary table of this name or path. Raises ConfigError naming file and cell."""
     import yaml
-    path = table_path(name)
+    path = named_file("audit", name or DEFAULT, "audit")
     try:
         content = yaml.load(path.read_text(), _loader())
     except (yaml.YAMLError, UnicodeDecodeError, OSError) as cause:

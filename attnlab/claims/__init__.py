@@ -10,34 +10,18 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from attnlab.errors import ConfigError, nearest
+from attnlab.errors import ConfigError
+from attnlab.loading import named_file
 
 DEFAULT = "dinocera2014"
 
 
-def claims_folders() -> list[Path]:
-    """Where claims files are looked for by name: conf/claims, and claims/ in every plugins folder."""
-    from attnlab.loading import plugin_folders
-    from attnlab.paths import conf_dir
-    return [folder for folder in (conf_dir() / "claims", *(f / "claims" for f in plugin_folders())) if folder.is_dir()]
-
-
 def claims_path(name: Any) -> Path:
-    """The file of claims ``name``: a name (dinocera2014) or a path to a .yaml. Raises ConfigError if there is none."""
-    if not isinstance(name, str) or not name.strip():
+    """The file of claims ``name``: a name (dinocera2014; in conf, a plugins folder or a pip package) or a path to a
+    .yaml. Raises ConfigError if there is none."""
+    if not isinstance(name, str) or not name.strip() or not name.isprintable():
         raise ConfigError("claims_file", f"expected the name or the path of a claims file, got {name!r}")
-    path = Path(name)
-    if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
-        if path.is_file():
-            return path
-        raise ConfigError(f"claims_file={name}", "there is no such file")
-    for folder in claims_folders():
-        found = folder / f"{name}.yaml"
-        if found.is_file():
-            return found
-    known = {file.stem for folder in claims_folders() for file in folder.glob("*.yaml")}
-    raise ConfigError(f"claims_file={name}", f"no claims file is called '{name}'",
-                      nearest(name, known) if known else "")
+    return named_file("claims", name, "claims_file")
 
 
 def claims_hash(name: str) -> str:

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
 from attnlab import registry
 from attnlab.claims import claims_path
+from attnlab.config import check_path
 from attnlab.errors import ConfigError, nearest
-from attnlab.loading import load_all
+from attnlab.groups import GROUPS
+from attnlab.loading import config_homes, load_all
 from attnlab.measures.base import Measure
 from attnlab.results.conditions import Runs
 from attnlab.settings import build, setting
@@ -160,10 +162,22 @@ def _roles(node: Mapping[str, Any], where: str) -> dict[str, Role]:
     for name, role in roles.items():
         if not role.where:
             raise ConfigError(f"{where}.roles.{name}.where", "is missing", "Write where: {curiosity: litman}")
+        for told_by in role.where:
+            _check_setting(str(told_by), f"{where}.roles.{name}.where")
         role.label = role.label or name
     if "treatment" not in roles:
         raise ConfigError(f"{where}.roles", "names no treatment")
     return roles
+
+
+def _check_setting(name: str, where: str) -> None:
+    """Can runs be told apart by this: a setting, a variant, or a group of files such as generation?"""
+    if name == "variant" or (config_homes(name) and name not in GROUPS):
+        return
+    try:
+        check_path(name)
+    except ConfigError as error:
+        raise ConfigError(f"{where}.{name}", error.problem, error.hint) from None
 
 
 def _measure(part: Part, where: str) -> Measure:

@@ -7,25 +7,46 @@ import re
 from attnlab.errors import ConfigError, nearest
 from attnlab.tables.ranges import RANGED, seeds
 
-FLAGS = ("-m", "--multirun", "-h", "--help", "--version", "-c", "--cfg", "-p", "--package", "--resolve", "-cn",
-         "--config-name", "-cp", "--config-path", "-cd", "--config-dir", "-i", "--info", "--hydra-help", "-sc",
-         "--shell-completion", "-r", "--run")
+INFOS = ("all", "config", "defaults", "defaults-tree", "plugins", "searchpath")
+
+TAKE_VALUES = {"-c": ("job", "hydra", "all"), "--cfg": ("job", "hydra", "all"), "-p": (), "--package": (),
+               "-cd": (), "--config-dir": (),
+               "-i": INFOS, "--info": INFOS, "-sc": (), "--shell-completion": ()}
+FLAGS = ("-m", "--multirun", "-h", "--help", "--version", "--resolve", "--hydra-help", *TAKE_VALUES)
 
 
-def normalise(argv: list[str]) -> list[str]:
-    """Flags first (Hydra's parser refuses a flag between overrides), seed ranges written out, ``experiment=`` as
-    ``+experiment=``. Raises ConfigError for a seed that is none."""
-    flags, overrides, takes_value = [], [], False
+def normalise(argv: list[str]) -> tuple[list[str], list[str]]:
+    """(flags, overrides): Hydra's parser refuses a flag between overrides. Seed ranges are written out. Raises
+    ConfigError for a flag or a seed that is none."""
+    flags: list[str] = []
+    overrides: list[str] = []
+    waiting = ""  # the flag that takes the next argument
     for argument in argv:
-        if takes_value or (argument.startswith("-") and "=" not in argument.split("[")[0]) or argument.startswith("--"):
-            if not takes_value and argument.split("=")[0] not in FLAGS:
-                raise ConfigError(argument, "no such flag", nearest(argument, FLAGS))
+        if waiting:
+            _check_value(waiting, argument)
             flags.append(argument)
-            takes_value = argument in ("-p", "--package", "-cp", "--config-path", "-cn", "--config-name", "-cd",
-                                       "--config-dir", "-c", "--cfg", "-i", "--info")
-            continue
-        overrides.append(_override(argument))
-    return flags + _one_list(overrides)
+            waiting = ""
+        elif (argument.startswith("-") and "=" not in argument.split("[")[0]) or argument.startswith("--"):
+            name, equals, value = argument.partition("=")
+            if name not in FLAGS:
+                raise ConfigError(argument, "no such flag", nearest(name, FLAGS))
+            if equals and name in TAKE_VALUES:
+                _check_value(name, value)
+            waiting = name if name in TAKE_VALUES and not equals else ""
+            if argument not in flags:
+                flags.append(argument)
+        else:
+            overrides.append(_override(argument))
+    if waiting:
+        _check_value(waiting, "")
+    return flags, _one_list(overrides)
+
+
+def _check_value(flag: str, value: str) -> None:
+    known = TAKE_VALUES[flag]
+    if not value or (known and value not in known):
+        raise ConfigError(flag, f"cannot take '{value}'" if value else "says nothing",
+                          f"One of: {', '.join(known)}" if known else f"Write {flag} VALUE")
 
 
 def _one_list(overrides: list[str]) -> list[str]:
@@ -46,13 +67,10 @@ def _one_list(overrides: list[str]) -> list[str]:
 
 def _override(argument: str) -> str:
     key, equals, value = argument.partition("=")
-    if key == "experiment":
-        return "+" + argument
     if key == "behaviours" and re.fullmatch(r"\w+(,\w+)+", value):  # Hydra would take it for a sweep
         raise ConfigError(argument, "a robot's behaviours stand in brackets", f"behaviours=[{value}]; robots of one "
                           f"behaviour each: behaviours={','.join(f'[{name}]' for name in value.split(','))}")
-    if key == "labels":  # names of one's own, which Hydra would call unknown
-        return "++" + argument
-    if equals and key in RANGED:
-        return f"{key}={','.join(map(str, seeds(key, value)))}"
+    plain = key.lstrip("+")
+    if equals and plain in RANGED:
+        return f"{plain}={','.join(map(str, seeds(plain, value)))}"
     return argument

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import textwrap
 
-from attnlab import registry
-from attnlab.cli.explain import options
+from attnlab.cli.listing import options
 from attnlab.config import RunSettings
+from attnlab.groups import GROUPS
 
 TEXT = """\
 attnlab: learn where to look.
@@ -29,22 +29,22 @@ A study that was interrupted goes on where it stopped: type the same command aga
   python -m attnlab.new behaviour NAME              start a part of your own: a file that works, and its test
   python -m attnlab --cfg job                       the composed config
 
-Results as pandas frames: attnlab.results.load("outputs/cr_vs_ncr").episodes
+Results as pandas frames: attnlab.load("outputs/cr_vs_ncr").episodes
 """
 
 
 def help_text() -> str:
     """Commands, then the choices of each group, then the settings."""
     lines = [TEXT, "Choices (group=option):"]
-    groups = [group for group in registry.GROUPS if group in RunSettings.__dataclass_fields__]
-    for group in ("experiment", *groups, "reading"):
-        names = options(group)
-        if names:
-            lines += textwrap.wrap(", ".join(names), 100, initial_indent=f"  {group:13}", subsequent_indent=" " * 15)
+    groups = {"experiment": "a study, ready to run", **{g.name: g.what for g in GROUPS.values() if g.in_run},
+              "reading": "how the paper's open points are read"}
+    for group, what in groups.items():
+        lines += [f"  {group:12} {what}", *textwrap.wrap(", ".join(options(group)), 100, initial_indent=" " * 15,
+                                                         subsequent_indent=" " * 15)]
     lines += ["", "Settings (setting=value):"]
     for name, field in RunSettings.__dataclass_fields__.items():
         doc = field.metadata.get("doc")
-        if doc and name not in ("reading", "cluster"):
+        if doc and name not in groups:
             value = field.default_factory() if callable(field.default_factory) else field.default
             shown = "" if not isinstance(value, (int, float, str, list)) else f" [{value}]"
             unit = f" ({field.metadata['unit']})" if field.metadata.get("unit") else ""

@@ -49,6 +49,14 @@ def named_configs() -> dict[tuple[str, str], Path]:
             if (group, file.stem) not in taken}
 
 
+def options(group: str) -> list[str]:
+    """Names that can stand after ``group=``."""
+    names = {option for spec in registry.parts.values() if spec.group == group for option in spec.options}
+    for folder in (conf_dir(), *config_folders()):
+        names |= {file.stem for file in (folder / group).glob("*.yaml")}
+    return sorted(names | ({"inferred"} if group == "reading" else set()))
+
+
 def kind_of(hint: typing.Any) -> str:
     """A type as one reads it: ``float``, ``list[float]``, ``str or none``."""
     if choices_of(hint):
@@ -80,17 +88,17 @@ def parameters(params: type, prefix: str = "") -> Iterable[str]:
 
 def about(spec: registry.Spec, option: str) -> str:
     """All about one part."""
+    kind = GROUPS[spec.group]
     lines = [f"{spec.group}={option}   {source(spec)}: {short(spec.origin)}"]
     if option != spec.name:
         lines.append(f"  a preset of {spec.name}: " + ", ".join(f"{k}={v}" for k, v in spec.presets[option].items()))
     lines += ["", inspect.getdoc(spec.cls) or "(no docstring)", ""]
     if dataclasses.fields(spec.params):
         lines += [f"Parameters (set with {spec.group}.<name>=<value>"
-                  + (f", for behaviours: behaviours.{option}.<name>=<value>)" if spec.group == "behaviours" else ")"),
+                  + (f", for {spec.group}: {kind.node(option)}.<name>=<value>)" if kind.chosen == "list" else ")"),
                   *parameters(spec.params)]
     else:
-        lines.append("It takes no parameters." + (f" Used as reading.penalised={option}." if spec.group == "penalty"
-                                                  else ""))
+        lines.append("It takes no parameters." + (f" Used as {kind.typed(option)}." if kind.setting else ""))
     if spec.presets and option == spec.name:
         lines += ["Presets:", *(f"  {name}: {values}" for name, values in spec.presets.items())]
     return "\n".join(lines)
@@ -144,8 +152,9 @@ def rows(group: str) -> Iterable[tuple[str, str, str]]:
 def table() -> str:
     """All parts by group, a line each, and what failed to load."""
     lines = []
-    for group in ("reading", *GROUPS):
-        lines += [group, *(f"  {name:<20} {where:<10} {what}" for name, where, what in rows(group))]
+    for group, what in {"reading": "how the paper's open points are read",
+                        **{g.name: g.what for g in GROUPS.values()}}.items():
+        lines += [f"{group}: {what}", *(f"  {name:<20} {where:<10} {what}" for name, where, what in rows(group))]
     if registry.failures:
         lines += ["", "failed to load (the others are not affected)"]
         lines += [f"  {short(file)}: {describe(cause)}" for file, cause in registry.failures.values()]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 from attnlab import __version__, registry
 from attnlab.cli.argv import normalise
@@ -13,6 +14,8 @@ from attnlab.errors import ConfigError, describe
 from attnlab.loading import load_all
 from attnlab.paths import conf_dir
 
+ASKS = ("-m", "--multirun", "-c", "--cfg", "-i", "--info", "--hydra-help", "-sc", "--shell-completion")
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code (0 complete, 1 a run failed, 2 wrong command line or config)."""
@@ -20,7 +23,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _main(argv: Sequence[str]) -> int:
-    arguments = normalise(list(argv))
+    arguments = list(argv)
     if any(flag in arguments for flag in ("--help", "-h")):
         from attnlab.cli.helptext import help_text
         load_all()
@@ -36,30 +39,34 @@ def _main(argv: Sequence[str]) -> int:
 
 
 def hydra_application(arguments: list[str]) -> int:
-    """Run Hydra's application on these arguments."""
+    """Run Hydra's application on these arguments, once they are known to mean something."""
     os.environ["HYDRA_FULL_ERROR"] = "1"  # raise, so that errors can be explained
     import hydra
 
     from attnlab.cli.explain import explain
     from attnlab.cli.store import store_options
     from attnlab.launch.sweeper import StudySweeper, register_with_hydra
+    StudySweeper.exit_code = 0
     store_options()
     register_with_hydra()
-    others = ("-m", "--multirun", "-c", "--cfg", "-i", "--info", "--hydra-help", "-sc", "--shell-completion")
-    if not any(argument.split("=")[0] in others for argument in arguments):
-        arguments = ["-m", *arguments]  # every invocation is a study, if of one run
 
     @hydra.main(version_base="1.3", config_path=str(conf_dir()), config_name="config")
-    def application(config) -> None:
+    def application(config: Any) -> None:
         """Never called: the sweeper does the runs."""
 
-    saved, sys.argv = sys.argv, ["attnlab", *arguments]
+    saved = sys.argv
     try:
+        flags, overrides = opened(arguments)
+        if not any(flag.split("=")[0] in ASKS for flag in flags):
+            flags = ["-m", *flags]  # every invocation is a study, if of one run
+        sys.argv = ["attnlab", *flags, *overrides]
         application()
     except (ConfigError, KeyboardInterrupt):
         raise
+    except SystemExit as end:  # Hydra's own word on a flag, which it has said
+        return 2 if end.code else 0
     except Exception as cause:
-        problem = None if os.environ.get("ATTNLAB_DEBUG") else explain(cause, arguments)
+        problem = None if os.environ.get("ATTNLAB_DEBUG") else explain(cause)
         if problem is None:
             raise
         raise problem from None
@@ -67,3 +74,16 @@ def hydra_application(arguments: list[str]) -> int:
         sys.argv = saved
     return StudySweeper.exit_code
 
+
+def opened(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """(flags, overrides) after the door's checks. Raises ConfigError. Parts must be stored in Hydra already."""
+    from hydra import initialize_config_dir
+    from hydra.core.global_hydra import GlobalHydra
+
+    from attnlab.launch.door import Door
+    flags, overrides = normalise(list(arguments))
+    with initialize_config_dir(str(conf_dir()), version_base="1.3"):
+        door = Door(GlobalHydra.instance().config_loader())
+        overrides = door.in_place(overrides)
+        door.check(overrides)
+    return flags, overrides

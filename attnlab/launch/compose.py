@@ -46,8 +46,9 @@ class Composer:
                 dig(base, path.rpartition(".")[0])[path.rpartition(".")[2]] = value
             if _resolve(base):
                 return base
-        config: dict[str, Any] = OmegaConf.to_container(self._by_hydra(overrides), resolve=True)
-        return config
+        composed, choices = self._by_hydra(overrides)
+        config: dict[str, Any] = OmegaConf.to_container(composed, resolve=True)  # type: ignore[assignment]  # a mapping
+        return named_by_file(config, choices)
 
     def _plain(self, override: Override) -> tuple[str, Any] | None:
         """(dotted name, value) if the override sets one value that is there already, and no more."""
@@ -60,16 +61,29 @@ class Composer:
 
     def _base(self, overrides: tuple[str, ...]) -> dict[str, Any]:
         if overrides not in self._composed:
-            config = OmegaConf.to_container(self._by_hydra(overrides), resolve=False)
-            self._composed[overrides] = pickle.dumps(config)
+            composed, choices = self._by_hydra(overrides)
+            config: dict[str, Any] = OmegaConf.to_container(composed)  # type: ignore[assignment]  # a mapping
+            self._composed[overrides] = pickle.dumps(named_by_file(config, choices))
         base: dict[str, Any] = pickle.loads(self._composed[overrides])
         return base
 
-    def _by_hydra(self, overrides: Sequence[str]) -> DictConfig:
+    def _by_hydra(self, overrides: Sequence[str]) -> tuple[DictConfig, dict[str, Any]]:
+        """(the config, the option chosen of each group)."""
         config: DictConfig = self.loader.load_sweep_config(self.master, list(overrides))
+        choices = dict(config.hydra.runtime.choices)
         with open_dict(config):
             config.pop("hydra")
-        return config
+        return config, choices
+
+
+def named_by_file(config: dict[str, Any], choices: Mapping[str, Any]) -> dict[str, Any]:
+    """The config with every part under the name it was chosen by: a file that was copied may still have the old one."""
+    for group, option in choices.items():
+        node = config.get(group)
+        if isinstance(option, str) and isinstance(node, dict) and "name" in node and node["name"] != option:
+            node.setdefault("part", node["name"])
+            node["name"] = option
+    return config
 
 
 def _has(config: Mapping[str, Any], path: str) -> bool:

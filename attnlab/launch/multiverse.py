@@ -15,17 +15,18 @@ from typing import Any
 import numpy as np
 
 from attnlab.errors import ConfigError, nearest
-from attnlab.paths import conf_dir
+from attnlab.loading import named_file
 from attnlab.reading import Reading
 from attnlab.settings import build
 
+DEFAULT = "dinocera2014"
 Factors = dict[str, dict[str, dict[str, Any]]]  # point -> level -> overrides
 
 
-def load_factors(path: str | Path | None = None) -> Factors:
-    """The open points and their levels; conf/multiverse/dinocera2014.yaml if no file is given. Raises ConfigError."""
+def load_factors(name: str | Path = DEFAULT) -> Factors:
+    """The open points and their levels, of the file of this name or path. Raises ConfigError."""
     import yaml
-    path = Path(path) if path else conf_dir() / "multiverse" / "dinocera2014.yaml"
+    path = named_file("multiverse", str(name), "variants.factors")
     try:
         content = yaml.safe_load(path.read_text())
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as cause:
@@ -46,9 +47,9 @@ def load_factors(path: str | Path | None = None) -> Factors:
     return {str(point): {str(level): dict(of) for level, of in levels.items()} for point, levels in content.items()}
 
 
-def design(size: int = 64, seed: int = 0, path: str | Path | None = None) -> list[dict[str, Any]]:
+def design(size: int = 64, seed: int = 0, factors: str | Path = DEFAULT) -> list[dict[str, Any]]:
     """``size`` readings as overrides of the config, all of them valid. Raises ConfigError naming what is not."""
-    factors = load_factors(path)
+    factors = load_factors(factors)
     if size < 2:
         raise ConfigError("multiverse.size", f"is {size}, must be at least 2")
     table = balanced([len(levels) for levels in factors.values()], size, seed)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Sequence
-from pathlib import Path
 
 from attnlab.errors import ConfigError
 from attnlab.launch.jobs import Job

@@ -21,10 +21,12 @@ from hydra.plugins.sweeper import Sweeper
 from omegaconf import OmegaConf
 
 from attnlab.claims import claims_mark
+from attnlab.claims.files import load_claims
 from attnlab.config import COSMETIC
 from attnlab.errors import ConfigError
 from attnlab.groups import GROUPS
 from attnlab.launch.compose import Composer
+from attnlab.launch.door import Door
 from attnlab.launch.jobs import Job, check_different, condition_of, make_job
 from attnlab.launch.place import check_place
 from attnlab.launch.variants import as_override, read_variants
@@ -61,7 +63,8 @@ class StudySweeper(Sweeper):
     def jobs(self, arguments: Sequence[str]) -> list[Job]:
         """All jobs of the sweep, checked."""
         composer = Composer(self.hydra_context.config_loader, self.config)
-        merged = self._merged(composer, arguments)
+        door = Door(self.hydra_context.config_loader)
+        merged = self._merged(door, arguments)
         swept = [_name(override) for override in merged.values() if override.is_sweep_override()]
         for name in sorted(COSMETIC & set(swept)):
             raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
@@ -69,6 +72,9 @@ class StudySweeper(Sweeper):
         node = OmegaConf.to_container(self.config.variants) if OmegaConf.is_config(self.config.variants) \
             else self.config.variants
         variants = read_variants(node)
+        for together in variants.values():
+            for key, value in together.items():
+                door.check_setting(key, value)
         jobs: list[Job] = []
         for typed in itertools.product(*(_choices(o) for key, o in merged.items() if key != "seed")):
             for name, together in variants.items():
@@ -85,14 +91,14 @@ class StudySweeper(Sweeper):
         _check_once(jobs)
         return jobs
 
-    def _merged(self, composer: Composer, arguments: Sequence[str]) -> dict[str, Override]:
+    def _merged(self, door: Door, arguments: Sequence[str]) -> dict[str, Override]:
         """Overrides by setting: what the experiment file sweeps, replaced by what is typed."""
         params = []
         for key, value in (self.params or {}).items():
             text = ",".join(map(str, seeds(key, str(value)))) if key in RANGED else value
             params.append(f"{key}={text}")
         merged: dict[str, Override] = {}
-        for override in (*composer.parser.parse_overrides(params), *composer.parser.parse_overrides(list(arguments))):
+        for override in (*door.check(door.in_place(params)), *door.parsed(arguments)):
             name = _name(override)
             several = override.is_add() and name in GROUPS and GROUPS[name].chosen == "list"  # +behaviours=rest
             merged[str(override.input_line) if several else name] = override
@@ -115,7 +121,8 @@ def _check_once(jobs: Sequence[Job]) -> None:
     """What is the same for all jobs of a command: the cluster, and the claims file, whose mark they keep."""
     settings = jobs[0].settings
     build_params("cluster", settings.cluster, "cluster")
-    claims = claims_mark(settings.claims_file) if settings.claims_file else None
+    load_claims(settings.claims_file)
+    claims = claims_mark(settings.claims_file)
     for job in jobs:
         job.claims = claims
 

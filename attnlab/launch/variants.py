@@ -14,8 +14,8 @@ DESIGNS = ("multiverse",)
 def read_variants(node: Any) -> dict[str | None, dict[str, Any]]:
     """Variants by name: setting -> value. A study without any has the one variant None, which changes nothing.
 
-    ``{design: multiverse, size: 64, seed: 0}`` asks :func:`~attnlab.launch.multiverse.design` for them. Raises
-    ConfigError.
+    ``{design: multiverse, size: 64, seed: 0, factors: dinocera2014}`` asks
+    :func:`~attnlab.launch.multiverse.design` for them. Raises ConfigError.
     """
     if not node:
         return {None: {}}
@@ -34,15 +34,16 @@ def read_variants(node: Any) -> dict[str | None, dict[str, Any]]:
 def _design(node: Mapping[str, Any]) -> dict[str | None, dict[str, Any]]:
     if node["design"] not in DESIGNS:
         raise ConfigError("variants.design", f"'{node['design']}' is none", nearest(str(node["design"]), DESIGNS))
-    unknown = set(node) - {"design", "size", "seed"}
+    known = ("design", "size", "seed", "factors")
+    unknown = sorted(str(name) for name in node if name not in known)
     if unknown:
-        raise ConfigError(f"variants.{min(unknown)}", "no such setting", nearest(min(unknown), ("size", "seed")))
+        raise ConfigError(f"variants.{unknown[0]}", "no such setting", nearest(unknown[0], known))
     size, seed = node.get("size", 64), node.get("seed", 0)
     for name, value, low in (("size", size, 2), ("seed", seed, 0)):
         if not isinstance(value, int) or isinstance(value, bool) or value < low:
             raise ConfigError(f"variants.{name}", f"is {value!r}, must be a whole number of at least {low}")
-    from attnlab.launch.multiverse import design
-    readings = design(size, seed)
+    from attnlab.launch.multiverse import DEFAULT, design
+    readings = design(size, seed, str(node.get("factors", DEFAULT)))
     width = len(str(len(readings) - 1))
     return {f"r{i:0{width}d}": dict(reading) for i, reading in enumerate(readings)}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from attnlab.measures import frames
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from attnlab.results.conditions import Runs
 
-PHASES = ("train", "validation")
+Phase = Literal["train", "validation"]
 
 
 class CannotMeasure(Exception):

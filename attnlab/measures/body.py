@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from attnlab.measures.base import PHASES, CannotMeasure, Measure
+from attnlab.measures.base import CannotMeasure, Measure, Phase
 from attnlab.measures.needs import OF_THE_PAPER, falls
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -30,8 +30,8 @@ class EnergyMargin(Measure):
 
     @dataclass
     class Params:
-        of: str = setting("min", "which of the episode's values", choices=("min", "mean", "max"))
-        phase: str = setting("validation", "which episodes", choices=PHASES)
+        of: Literal["min", "mean", "max"] = setting("min", "which of the episode's values")
+        phase: Phase = setting("validation", "which episodes")
 
     def of(self, runs):
         well = runs.reading().energy_well

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from attnlab.measures.base import PHASES, Measure
+from attnlab.measures.base import Measure, Phase
 from attnlab.measures.rewards import BEHAVIOUR, behaviours_of, mean_sums
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -19,7 +19,7 @@ class Activations(Measure):
     class Params:
         behaviour: str = setting("all", BEHAVIOUR)
         minus: str | None = setting(None, "a behaviour, or several joined by +, to subtract")
-        phase: str = setting("validation", "which episodes", choices=PHASES)
+        phase: Phase = setting("validation", "which episodes")
 
     def of(self, runs):
         p = self.params
@@ -38,7 +38,7 @@ class ActivationSaving(Measure):
     @dataclass
     class Params:
         behaviour: str = setting("all", BEHAVIOUR)
-        phase: str = setting("validation", "which episodes", choices=PHASES)
+        phase: Phase = setting("validation", "which episodes")
 
     def of(self, runs):
         p = self.params
@@ -55,7 +55,7 @@ class Overlap(Measure):
 
     @dataclass
     class Params:
-        phase: str = setting("validation", "which episodes", choices=PHASES)
+        phase: Phase = setting("validation", "which episodes")
 
     def of(self, runs):
         from attnlab.stats import overlap_ratio

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from attnlab.measures.base import PHASES, CannotMeasure, Measure, window
+from attnlab.measures.base import CannotMeasure, Measure, Phase, window
 from attnlab.measures.frames import Window, means, of_seeds, phase_rows, split, window_rows
 from attnlab.measures.once import once_a_study
 from attnlab.registry import register
@@ -81,7 +81,7 @@ class Reward(Measure):
     @dataclass
     class Params:
         behaviour: str = setting("all", BEHAVIOUR)
-        phase: str = setting("validation", "which episodes", choices=PHASES)
+        phase: Phase = setting("validation", "which episodes")
         episodes: list[int] | None = setting(None, "[first, end) of them; all if left out")
         extrinsic: bool = setting(False, "without the intrinsic part of eq 4")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from attnlab.measures.base import PHASES, CannotMeasure, Measure
+from attnlab.measures.base import CannotMeasure, Measure, Phase
 from attnlab.measures.frames import of_seeds, phase_rows, split
 from attnlab.measures.once import once_a_study
 from attnlab.registry import register
@@ -52,7 +52,7 @@ def _map(conditions: Conditions, phase: str, run: str) -> np.ndarray | None:
 
 @dataclass
 class _Phase:
-    phase: str = setting("train", "which episodes", choices=PHASES)
+    phase: Phase = setting("train", "which episodes")
 
 
 @register("measure", "coverage")
@@ -62,7 +62,7 @@ class Coverage(Measure):
 
     @dataclass
     class Params:
-        phase: str = setting("train", "which episodes", choices=PHASES)
+        phase: Phase = setting("train", "which episodes")
         footprint: bool = setting(False, "count what the body touched, not the cells of its centre")
 
     def of(self, runs):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from attnlab.measures.base import PHASES, Measure, window
+from attnlab.measures.base import Measure, Phase, window
 from attnlab.measures.frames import Window, of_seeds, split, window_rows
 from attnlab.measures.needs import UNIT
 from attnlab.measures.once import once_a_study
@@ -25,7 +25,7 @@ class Survival(Measure):
 
     @dataclass
     class Params:
-        phase: str = setting("validation", "which episodes", choices=PHASES)
+        phase: Phase = setting("validation", "which episodes")
         episodes: list[int] | None = setting(None, "[first, end) of them; all if left out")
 
         def __post_init__(self):
@@ -78,7 +78,7 @@ class Episode(Measure):
     @dataclass
     class Params:
         column: str = setting("survival", "name of the column")
-        phase: str = setting("validation", "which episodes", choices=PHASES)
+        phase: Phase = setting("validation", "which episodes")
         episodes: list[int] | None = setting(None, "[first, end) of them; all if left out")
 
         def __post_init__(self):

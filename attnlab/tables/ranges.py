@@ -17,7 +17,7 @@ def seeds(key: str, text: str) -> list[int]:
     inside = re.fullmatch(r"(range|choice)\(([\d,\s]*)\)", text.strip())
     if inside and inside[1] == "range":
         numbers = [int(n) for n in inside[2].split(",") if n.strip()]
-        found = list(range(*numbers)) if 1 <= len(numbers) <= 3 else []
+        found = list(range(*numbers)) if 1 <= len(numbers) <= 3 and 0 not in numbers[2:] else []
         if not found:
             raise ConfigError(key, f"{text} is empty", f"Write {key}=0-4")
     else:

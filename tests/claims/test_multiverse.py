@@ -58,7 +58,7 @@ def test_bad_factors(tmp_path, text, words):
     path = tmp_path / "points.yaml"
     path.write_text(text)
     with pytest.raises(ConfigError, match=words):
-        design(4, path=path)
+        design(4, factors=path)
 
 
 def test_an_effect_that_was_put_in_is_found(tmp_path):

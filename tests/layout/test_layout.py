@@ -42,7 +42,8 @@ TOP = {  # modules that are no commands
     "plot", "reading", "registry", "settings", "streams"}
 COMMANDS = {"__main__", "fig1", "new", "parts"}  # thin modules for python -m; the others are packages with __main__
 NO_CODE = {"plugins", "templates"}
-ROBOT, READER = {"robot", "attention", "cycle"}, {"results", "stats", "measures", "figures", "claims", "audit", "report"}
+ROBOT = {"robot", "attention", "cycle"}
+READER = {"results", "stats", "measures", "figures", "claims", "audit", "report"}
 LONGEST = 250
 HEAVY = ("pandas", "seaborn", "matplotlib", "scipy", "pybullet", "numba", "pyarrow")
 

@@ -28,7 +28,9 @@ class Place:
                               env={**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "200", **environment})
 
     def attnlab(self, *overrides: str) -> subprocess.CompletedProcess:
-        return self.python("-m", "attnlab", *SHORT, *overrides)
+        typed = {override.partition("=")[0] for override in overrides}
+        short = [override for override in SHORT if override.partition("=")[0] not in typed]
+        return self.python("-m", "attnlab", *short, *overrides)
 
     def runs(self) -> dict[str, dict]:
         """run.json of every run by its condition."""

@@ -1,5 +1,6 @@
 """A package somebody else wrote: found by its entry point, with its own conf, in worker processes too."""
 
+import json
 import os
 import shutil
 import sys
@@ -47,6 +48,9 @@ def check(python, place, *sweep):
     runs = place.runs()
     assert set(runs) == ({"weekly", "litman", "none"} if whole else {"weekly"})
     assert len(list(place.path.glob("outputs/island/*/policy.parquet"))) == (6 if whole else 1)
+    for run in place.path.glob("outputs/island/*/run.json"):
+        assert (run.parent / "longest.txt").read_text() == "60\n"  # its callback
+        assert not json.loads(run.read_text()).get("callbacks")
     (place.path / "pool.py").write_text(IN_A_POOL)
     pooled = python("pool.py")
     assert "same in workers" in pooled.stdout, pooled.stderr
@@ -57,6 +61,25 @@ def test_a_package_is_found_by_its_entry_point(place, tmp_path):
     check(lambda *arguments: place.python(*arguments, PYTHONPATH=path), place, "curiosity=weekly")
     unknown = place.python("-m", "attnlab", "world=iland", PYTHONPATH=path)
     assert unknown.returncode == 2 and "island" in unknown.stderr
+
+
+def test_a_package_brings_files_measures_and_figures(place, tmp_path):
+    """Claims, tables and open points of its conf are found by name; its column is measured, judged and drawn."""
+    def python(*arguments):
+        done = place.python(*arguments, PYTHONPATH=path)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+    path = installed_by_hand(tmp_path / "site")
+    python("-m", "attnlab", "+experiment=island", "curiosity=weekly", "seed=0-2", "simulator=planar",
+           "train_episodes=4", "validation_episodes=1", "max_cycles=100", "picture=false")
+    page = (place.path / "outputs" / "island" / "report" / "index.html").read_text()
+    assert "how far to the east" in page and "The weekly robot gets east" in page
+    known = "from attnlab.api import load; print(load('outputs/island').episodes['east_m'].min() > 0)"
+    assert python("-c", known) == "True\n"
+    assert "A table of the island" in python("-m", "attnlab.audit", "island")
+    python("-m", "attnlab", "variants={design: multiverse, size: 2, factors: island}", "simulator=planar", "study=two",
+           "train_episodes=1", "validation_episodes=1", "max_cycles=60", "picture=false", "report=false")
+    assert len(list(place.path.glob("outputs/two/*/run.json"))) == 2
 
 
 def test_a_package_that_does_not_load_is_named_with_its_entry_point(place, tmp_path):

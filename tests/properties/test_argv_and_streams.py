@@ -15,9 +15,9 @@ from attnlab.tables.ranges import compact, seeds
 
 
 def test_the_papers_command_is_reordered_for_hydra():
-    assert normalise(["+experiment=cr_vs_ncr", "-m", "seed=0-3,7"]) == ["-m", "+experiment=cr_vs_ncr", "seed=0,1,2,3,7"]
-    assert normalise(["experiment=smoke"]) == ["+experiment=smoke"]
-    assert normalise(["seed=range(0,3)"]) == ["seed=0,1,2"]
+    assert normalise(["+experiment=cr_vs_ncr", "-m", "seed=0-3,7"]) == (
+        ["-m"], ["+experiment=cr_vs_ncr", "seed=0,1,2,3,7"])
+    assert normalise(["seed=range(0,3)"]) == ([], ["seed=0,1,2"])
 
 
 @pytest.mark.parametrize(("text", "says"), [("5-2", "backwards"), ("a", "whole number"), ("-1", "at least 0"),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 CASES = [
     (["curiosity=litmann"], "curiosity=litmann", "Did you mean 'litman'"),
@@ -56,6 +58,67 @@ CASES = [
     (["a=b=c"], "a=b=c", "cannot be read"),
     (["--multirum"], "--multirum", "Did you mean '--multirun'"),
     (["-m", "curiosity=interval(0,1)"], "curiosity", "List them"),
+    *(([f"{group}=null"], f"{group}=null", "expected a name") for group in (
+        "simulator", "reading", "behaviours", "cluster", "experiment", "world", "curiosity", "probe")),
+    *(([f"{group}=1"], f"{group}=1", "expected a name") for group in (
+        "simulator", "reading", "behaviours", "cluster", "experiment", "world", "curiosity")),
+    (["curiosity=true"], "curiosity=true", "expected a name"),
+    (["curiosity=${seed}"], "curiosity=${seed}", "expected a name"),
+    (["curiosity="], "curiosity=", "no curiosity is called ''"),
+    (["curiosity={}"], "curiosity", "{} sets nothing"),
+    (["learner=[sarsa,q_learning]"], "learner", "learner=sarsa,q_learning"),
+    (["learner={alpah:0.5}"], "learner.alpah", "Did you mean 'alpha'"),
+    (["learner.name=x"], "learner.name", "learner=NAME"),
+    (["variants=5"], "variants", "expected {name: {setting: value}}"),
+    (["variants={a: {learnr.alpha: 1}}"], "learnr.alpha", "Did you mean 'learner.alpha'"),
+    (["variants={a: {curiosity: nobody}}"], "curiosity=nobody", "no curiosity is called"),
+    (["experiment=multiverse", "variants.siez=3"], "variants.siez", "Did you mean 'size'"),
+    (["experiment=cr_vs_ncr,smoke"], "experiment", "a study of its own"),
+    (["seed=range(0,5,0)"], "seed", "is empty"),
+    (["train_episodes=range(0,0)"], "train_episodes", "names no value"),
+    (["train_episodes=range(0,5,0)"], "train_episodes", "names no value"),
+    (["curiosity=glob(x*)"], "curiosity", "names no value"),
+    (["=glob(*)"], "=glob(*)", "names no setting"),
+    (["=5"], "=5", "names no setting"),
+    (["seed"], "seed", "cannot be read"),
+    (["ключ=5"], "ключ=5", "cannot be read"),
+    (["curiosity@x=none"], "curiosity@x=none", "packages are not used"),
+    (["hydra.sweeper._target_=x"], "hydra.sweeper._target_=x", "is not used here"),
+    (["hydra/sweeper=optuna"], "hydra/sweeper=optuna", "is not used here"),
+    (["hydra/launcher=joblib"], "hydra/launcher=joblib", "cluster=local"),
+    (["hydra.launcher.n_jobs=2"], "hydra.launcher.n_jobs=2", "cluster=local"),
+    (["+hydra.callbacks.x._target_=os.getcwd"], "+hydra.callbacks.x._target_=os.getcwd", "callback="),
+    (["hydra.run.dir=/tmp/x"], "hydra.run.dir=/tmp/x", "outputs="),
+    (["+learner._target_=x"], "learner._target_", "no class is named"),
+    (["world.boxes=[{_target_: os.system}]"], "world.boxes", "no class is named"),
+    (["seed=1", "seed=2"], "seed", "is typed twice"),
+    (["learner.alpha=0.1", "+learner.alpha=0.2"], "learner.alpha", "is typed twice"),
+    (["experiment=smoke", "+experiment=cr_vs_ncr"], "experiment", "is typed twice"),
+    (["+behaviours=rest", "+behaviours=rest"], "behaviours", "is typed twice"),
+    (["behaviours=[avoid,eat,avoid]"], "behaviours", "names avoid twice"),
+    (["behaviours.rest.threshold=1"], "behaviours.rest", "+behaviours=rest"),
+    (["behaviours.avoyd.weights=1"], "behaviours.avoyd.weights", "Did you mean 'avoid'"),
+    (["seed=9223372036854775808"], "seed", "at most 9223372036854775807"),
+    (["outputs="], "outputs", "cannot be a folder"),
+    (["outputs=null"], "outputs", "expected a word"),
+    (["study="], "study", "cannot be the name"),
+    (["study=null"], "study", "expected a word"),
+    (["study=' '"], "study", "cannot be the name"),
+    (["study=a\tb"], "study", "cannot be the name"),
+    (["study='a\x1b[31m'"], "study", "cannot be the name"),
+    (["study=" + "a" * 300], "study", "300 bytes"),
+    (["labels={litman:null}"], "labels.litman", "expected a word"),
+    (["labels={litman:CR,none:CR}"], "labels", "must differ"),
+    (["~curiosity"], "curiosity", "cannot be left out"),
+    (["~seed"], "seed", "cannot be left out"),
+    (["learnr.alpha=0.1"], "learnr.alpha", "Did you mean 'learner.alpha'"),
+    (["penalty=all"], "penalty", "reading.penalised"),
+    (["measure=survival"], "measure", "A claims file names measures"),
+    (["claims=dinocera2014"], "claims", "claims_file="),
+    (["curiosity/x=none"], "curiosity/x", "no such group"),
+    (["--cfg", "jobs"], "--cfg", "One of: job, hydra, all"),
+    (["-p"], "-p", "says nothing"),
+    (["-cn", "smoke"], "-cn", "no such flag"),
 ]
 
 
@@ -77,3 +140,35 @@ def test_the_whole_sweep_is_checked_before_its_first_run(complain):
     assert code == 2
     assert "reading.novelty_window" in err
     assert written == []
+
+
+CLAIMS = {"no YAML": ("claims: [", "is no readable YAML"),
+          "no claims": ("title: nothing", "there are none"),
+          "a role of no setting": ("roles: {treatment: {where: {curiosty: x}}}\n"
+                                   "claims: {C1: {title: t, where: w, says: s, parts: []}}",
+                                   "where.curiosty: no such setting. Did you mean 'curiosity'")}
+
+
+@pytest.mark.parametrize(("text", "says"), CLAIMS.values(), ids=CLAIMS)
+def test_claims_that_cannot_be_read_stop_it_before_the_first_run(complain, tmp_path, text, says):
+    (tmp_path / "own.yaml").write_text(text)
+    code, err, written = complain(f"claims_file={tmp_path / 'own.yaml'}", "simulator=planar")
+    assert code == 2 and says in err and err.startswith("attnlab: own.yaml")
+    assert written == ["own.yaml"]
+
+
+FRAGMENTS = ("curiosity", "learner", "behaviours", "seed", "reading", "study", "outputs", "variants", "labels", "hydra",
+             "world", "null", "none", "litman", "avoid", "alpha", "dt_s", "experiment", "smoke", "_target_", "1", "-1",
+             "0-3", "1e9", "=", "=", "=", ".", ",", "[", "]", "{", "}", ":", "+", "~", "@", "/", "$", "(", ")", "'",
+             '"', " ", "\n", "\0", "range(0,3)", "glob(*)", "choice(", "é", "-m", "--cfg", "../x")
+
+
+@settings(max_examples=150, deadline=None, derandomize=True,
+          suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.lists(st.sampled_from(FRAGMENTS), min_size=1, max_size=6).map("".join), min_size=1, max_size=3))
+def test_whatever_is_typed(complain, monkeypatch, arguments):
+    """A study that may run, or one line: never a traceback, and never a file."""
+    monkeypatch.setattr("attnlab.launch.drive.drive", lambda jobs, typed: 0)
+    code, err, written = complain(*arguments)
+    assert code in (0, 2) and "Traceback" not in err, arguments
+    assert written == [] and (code == 0 or len(err.strip().splitlines()) == 1), (arguments, err)

@@ -1,5 +1,5 @@
 """Parts for attnlab from a package of its own: importing it registers them."""
 
-from attnlab_example import patrol, weekly
+from attnlab_example import patrol, watching, weekly
 
-__all__ = ["patrol", "weekly"]
+__all__ = ["patrol", "watching", "weekly"]
