@@ -17,11 +17,16 @@ import dataclasses
 import importlib.util
 import inspect
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from attnlab import settings
 from attnlab.errors import ConfigError, describe, nearest
 from attnlab.groups import GROUPS
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+Part = TypeVar("Part")
 
 
 @dataclasses.dataclass
@@ -39,8 +44,9 @@ class Spec:
     origin: str
 
     @property
-    def params(self) -> type:
-        return getattr(self.cls, "Params", NoParams)
+    def params(self) -> type[DataclassInstance]:
+        found: type[DataclassInstance] = getattr(self.cls, "Params", NoParams)
+        return found
 
     @property
     def options(self) -> tuple[str, ...]:
@@ -60,9 +66,10 @@ parts: dict[tuple[str, str], Spec] = {}
 failures: dict[str, tuple[str, BaseException]] = {}  # module or entry point -> (file, what it raised)
 
 
-def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] | None = None) -> Callable:
+def register(group: str, name: str, *, presets: Mapping[str, Mapping[str, Any]] | None = None
+             ) -> Callable[[type[Part]], type[Part]]:
     """Class decorator: ``group=name`` now means this class. ``presets`` are further options: name -> parameters."""
-    def door(cls: type) -> type:
+    def door(cls: type[Part]) -> type[Part]:
         origin = inspect.getsourcefile(cls) or cls.__module__
         if group not in GROUPS:
             raise ValueError(f"{origin}: there is no group '{group}'. {nearest(group, GROUPS)}")
@@ -85,7 +92,7 @@ def check_class(group: str, cls: type, origin: str) -> None:
         raise TypeError(f"{origin}: {cls.__name__} is no {base.__name__}: write class {cls.__name__}({base.__name__}), "
                         f"from {base.__module__}")
     if inspect.isabstract(cls):
-        raise TypeError(f"{origin}: {cls.__name__} lacks {', '.join(sorted(cls.__abstractmethods__))}")
+        raise TypeError(f"{origin}: {cls.__name__} lacks {', '.join(sorted(vars(cls)['__abstractmethods__']))}")
     if hasattr(cls, "check_declared"):
         try:
             cls.check_declared()
@@ -171,7 +178,7 @@ def unknown(group: str, name: str, where: str, known: list[str] | None = None) -
     return ConfigError(f"{where}={name}", f"no {group} is called '{name}'", nearest(name, names))
 
 
-def build_params(group: str, node: Mapping[str, Any], where: str) -> tuple[Spec, Any]:
+def build_params(group: str, node: Any, where: str) -> tuple[Spec, Any]:
     """The part a node names, and its checked parameters."""
     if not isinstance(node, Mapping) or not (node.get("part") or node.get("name")):
         known = sorted(s.name for s in parts.values() if s.group == group)

@@ -6,6 +6,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -111,11 +112,11 @@ def profile_by_part() -> dict[str, float]:
     profile = cProfile.Profile()
     profile.runcall(play_run, experiment)
     spent: Counter = Counter()
-    for (file, *_), (_, _, own, _, callers) in pstats.Stats(profile).stats.items():
+    for (file, *_), (_calls, _all, own, _total, callers) in pstats.Stats(profile).stats.items():
         if "attnlab" in file:
             spent[_part(file)] += own
         else:  # what is not ours counts for who called it
-            for (caller, _, _), (*_, share, _) in callers.items():
+            for (caller, *_where), (_n, _m, share, _sum) in callers.items():
                 spent[_part(caller)] += share
     total = sum(spent.values())
     return {part: seconds / total for part, seconds in spent.most_common()}
@@ -131,8 +132,7 @@ def memory_over_episodes(episodes: int) -> dict[str, float]:
 
     def progress(done: int, _: int) -> None:
         if done in (episodes // 5, episodes):
-            with open("/proc/self/statm") as file:
-                marks.append(int(file.read().split()[1]) * 4096 / 1e6)
+            marks.append(int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6)
     play_run(RunPlan(config("planar", episodes - 1, 1)), progress=progress)
     return {"episodes": episodes, "mb_after_a_fifth": marks[0], "mb_at_the_end": marks[1]}
 

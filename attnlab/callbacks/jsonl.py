@@ -24,5 +24,5 @@ class JsonLines(Callback):
         if self.folder is not None:
             line = {"phase": lived.phase, "episode": lived.episode, "survival": lived.cycles / lived.max_cycles,
                     "death": lived.death}
-            with open(self.folder / "episodes.jsonl", "a") as file:
+            with (self.folder / "episodes.jsonl").open("a") as file:
                 file.write(json.dumps(line) + "\n")

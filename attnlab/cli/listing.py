@@ -70,18 +70,18 @@ def parameters(params: type, prefix: str = "") -> Iterable[str]:
     """A line a parameter: name, type, default, unit, range, meaning; those of a nested dataclass after it."""
     hints = typing.get_type_hints(params)
     for field in dataclasses.fields(params):
-        made = field.default_factory is not dataclasses.MISSING
-        meta, value = field.metadata, field.default_factory() if made else field.default
+        make, meta = field.default_factory, field.metadata
+        value = field.default if make is dataclasses.MISSING else make()
         if dataclasses.is_dataclass(value):
             yield f"  {prefix}{field.name}: {meta.get('doc', '')}"
             yield from parameters(type(value), f"{prefix}{field.name}.")
             continue
-        limits = [f"at least {meta['low']}" if meta.get("low") is not None else "",
+        bounds = [f"at least {meta['low']}" if meta.get("low") is not None else "",
                   f"more than {meta['above']}" if meta.get("above") is not None else "",
                   f"at most {meta['high']}" if meta.get("high") is not None else "",
                   "one of " + ", ".join(map(str, choices)) if (choices := choices_of(hints[field.name])) else ""]
         unit = f" {meta['unit']}" if meta.get("unit") else ""
-        limits = f" ({', '.join(filter(None, limits))})" if any(limits) else ""
+        limits = f" ({', '.join(filter(None, bounds))})" if any(bounds) else ""
         yield f"  {prefix}{field.name}: {kind_of(hints[field.name])} = {value}{unit}{limits}"
         yield f"      {meta.get('doc') or '(undocumented)'}"
 
@@ -113,7 +113,7 @@ def about_config(group: str, name: str, file: Path) -> str:
 def about_reading() -> str:
     """The default reading: every setting it holds."""
     from attnlab import reading
-    return "\n".join([f"reading=inferred   built in: {short(reading.__file__)}", "", inspect.getdoc(reading), "",
+    return "\n".join([f"reading=inferred   built in: {short(reading.__file__)}", "", inspect.getdoc(reading) or "", "",
                       "Parameters (set with reading.<name>=<value>)", *parameters(reading.Reading)])
 
 

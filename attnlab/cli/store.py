@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from attnlab import registry
 from attnlab.config import RunSettings
 from attnlab.groups import GROUPS
@@ -12,7 +14,7 @@ GROUPS_OF_RUN = {group for group in (*GROUPS, "reading")
                  if group in RunSettings.__dataclass_fields__}
 
 
-def root_node() -> dict:
+def root_node() -> dict[str, Any]:
     """The top of the config: every setting that is not a group, with its default."""
     node = {key: value for key, value in defaults_of(RunSettings).items() if key not in GROUPS_OF_RUN}
     node["max_cycles"] = "${reading.max_cycles}"

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from typing import TYPE_CHECKING
 
 from attnlab.clusters.base import Cluster, cores
 from attnlab.launch.jobs import Job
@@ -18,6 +19,11 @@ from attnlab.launch.worker import work
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.tables.files import read_json, write_json
+
+if TYPE_CHECKING:
+    from multiprocessing.context import ForkServerContext, SpawnContext
+
+    Context = ForkServerContext | SpawnContext
 
 
 @dataclass
@@ -43,7 +49,8 @@ class Local(Cluster):
 
     def run(self, jobs: Sequence[Job], display: Display) -> None:
         """Ctrl-C stops the running ones, marks them failed (interrupted), and is raised again."""
-        context, waiting, running = _context(jobs), list(jobs), []
+        context, waiting = _context(jobs), list(jobs)
+        running: list[_Running] = []
         at_once = self.at_once(jobs)
         try:
             while waiting or running:
@@ -75,7 +82,7 @@ def _hear(run: _Running, display: Display) -> None:
             run.episodes, run.cycles = episodes, cycles
 
 
-def _context(jobs: Sequence[Job]):
+def _context(jobs: Sequence[Job]) -> Context:
     """Processes forked from a server that has the imports, and nothing else, done already: a run starts in
     milliseconds and no thread or lock of ours is copied. Where there is no fork, fresh processes."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
@@ -86,7 +93,7 @@ def _context(jobs: Sequence[Job]):
     return context
 
 
-def _start(context, job: Job) -> _Running:
+def _start(context: Context, job: Job) -> _Running:
     receive, send = context.Pipe(duplex=False)
     process = context.Process(target=work, args=(dict(job.config), str(job.folder), job.info, send), daemon=True)
     process.start()
@@ -96,7 +103,7 @@ def _start(context, job: Job) -> _Running:
 
 def _finish(run: _Running, display: Display) -> None:
     run.process.join()
-    code = run.process.exitcode
+    code = run.process.exitcode or 0
     about = read_json(run.job.folder / "run.json") or {}
     if code != 0 and about.get("status") != "failed":
         _mark_failed(run.job, f"the process died of {_signal_name(-code)}" if code < 0 else

@@ -14,14 +14,14 @@ from attnlab.registry import make
 from attnlab.results.old import recovered
 from attnlab.tables.code import code
 from attnlab.tables.ranges import compact, seeds
-from attnlab.tables.study import FILE, Condition, StudyFile, grow
+from attnlab.tables.study import FILE, Condition, grow
 
 
 def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
     """Run a study; 0 if all of it is complete now, 1 if a run failed. ``typed``: the arguments that asked for it."""
     settings = jobs[0].settings
     todo, done, reasons, old = split(jobs, settings.fresh)
-    study = _ask(jobs, typed)
+    _ask(jobs, typed)
     folder = jobs[0].folder.parent
     why = ", ".join(f"{count} {reason}" for reason, count in reasons.items())
     if not done and set(reasons) - {"missing"}:
@@ -35,7 +35,7 @@ def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
               f"{code()['hash']}); numbers of both would stand side by side. fresh=true makes all of them anew.",
               file=sys.stderr)
     failed = _run(todo, folder) if todo else []
-    _show(folder, jobs, study, settings, typed)
+    _show(folder, jobs, settings, typed)
     for job, cause in failed[:10]:
         print(f"failed: {job.folder}: {cause}", file=sys.stderr)
     if failed:
@@ -44,7 +44,7 @@ def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
     return 1 if failed else 0
 
 
-def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> StudyFile:
+def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> None:
     """Write down what is asked for, before any of it runs."""
     folder = jobs[0].folder.parent
     asked: dict[str, tuple[Condition, list[tuple[str, str, int]]]] = {}
@@ -56,7 +56,6 @@ def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> StudyFile:
     names = {condition.key: condition.name for condition in study.conditions}
     for job in jobs:
         job.of.name = names[job.of.key]
-    return study
 
 
 def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
@@ -70,7 +69,7 @@ def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
     return display.failed
 
 
-def _show(folder: Path, jobs: Sequence[Job], asked: StudyFile, settings: RunSettings, typed: Sequence[str]) -> None:
+def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Sequence[str]) -> None:
     """Figures, summary and hints of what is complete."""
     from attnlab.results.load import Study
     from attnlab.results.summary import print_summary

@@ -97,14 +97,17 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
 
     A complete run is known by the key at the end of its folder's name, whatever sweep it came from.
     """
-    todo, done, old, reasons = [], [], [], {}
+    todo: list[Job] = []
+    done: list[Job] = []
+    old: list[Job] = []
+    reasons: dict[str, int] = {}
     existing: dict[str, list[Path]] = {}
     study = jobs[0].folder.parent
     if study.is_dir():
         for folder in sorted(study.iterdir()):
             existing.setdefault(folder.name.rpartition("-")[2], []).append(folder)
     for job in jobs:
-        reason, about = "missing", {}
+        reason, about = "missing", dict[str, Any]()
         for folder in existing.get(job.key, []):
             status, _, about = state_of(folder)
             reason = status

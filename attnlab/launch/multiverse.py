@@ -49,14 +49,14 @@ def load_factors(name: str | Path = DEFAULT) -> Factors:
 
 def design(size: int = 64, seed: int = 0, factors: str | Path = DEFAULT) -> list[dict[str, Any]]:
     """``size`` readings as overrides of the config, all of them valid. Raises ConfigError naming what is not."""
-    factors = load_factors(factors)
+    points = load_factors(factors)
     if size < 2:
         raise ConfigError("multiverse.size", f"is {size}, must be at least 2")
-    table = balanced([len(levels) for levels in factors.values()], size, seed)
+    table = balanced([len(levels) for levels in points.values()], size, seed)
     readings = []
     for row in table:
         overrides: dict[str, Any] = {}
-        for levels, level in zip(factors.values(), row, strict=True):
+        for levels, level in zip(points.values(), row, strict=True):
             overrides.update(list(levels.values())[level])
         build(Reading, {name.partition(".")[2]: value for name, value in overrides.items()}, "reading")
         readings.append(overrides)
@@ -95,7 +95,8 @@ def balanced(levels: list[int], size: int, seed: int, proposals: int = 30_000) -
                 off[one, where] += by
                 off[where, one] += by
             codes[r, j], codes[s, j] = b, a
-    return codes - start
+    found: np.ndarray = codes - start
+    return found
 
 
 def imbalance(table: np.ndarray) -> float:

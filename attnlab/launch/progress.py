@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attnlab.launch.jobs import Job
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 PLAIN_EVERY_S = 15.0
 
@@ -22,7 +25,8 @@ class Display:
         self.done_runs = self.done_episodes = self.cycles = 0
         self.failed: list[tuple[Job, str]] = []
         self._started = self._last_plain = time.monotonic()
-        self._bar = self._task = None
+        self._bar: Progress | None = None
+        self._task: Any = None  # rich's word for the bar's line
 
     def __enter__(self) -> Display:
         if sys.stderr.isatty():
@@ -38,7 +42,7 @@ class Display:
         self.tick()
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         if self._bar:
             self._bar.stop()
 

@@ -13,12 +13,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from hydra.core.config_search_path import ConfigSearchPath
 from hydra.core.config_store import ConfigStore
 from hydra.core.override_parser.types import Override
 from hydra.core.plugins import Plugins
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from hydra.plugins.sweeper import Sweeper
-from omegaconf import OmegaConf
+from hydra.types import HydraContext, TaskFunction
+from omegaconf import DictConfig, OmegaConf
 
 from attnlab.claims import claims_mark
 from attnlab.claims.files import load_claims
@@ -50,8 +52,8 @@ class StudySweeper(Sweeper):
     def __init__(self, params: dict[str, str] | None = None):
         self.params = params
 
-    def setup(self, *, hydra_context, task_function, config) -> None:
-        self.hydra_context, self.task_function, self.config = hydra_context, task_function, config
+    def setup(self, *, hydra_context: HydraContext, task_function: TaskFunction, config: DictConfig) -> None:
+        self.loader, self.master = hydra_context.config_loader, config
 
     def sweep(self, arguments: list[str]) -> None:
         from attnlab.launch.drive import drive
@@ -62,29 +64,27 @@ class StudySweeper(Sweeper):
 
     def jobs(self, arguments: Sequence[str]) -> list[Job]:
         """All jobs of the sweep, checked."""
-        composer = Composer(self.hydra_context.config_loader, self.config)
-        door = Door(self.hydra_context.config_loader)
+        composer, door = Composer(self.loader, self.master), Door(self.loader)
         merged = self._merged(door, arguments)
         swept = [_name(override) for override in merged.values() if override.is_sweep_override()]
         for name in sorted(COSMETIC & set(swept)):
             raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
         _check_size(merged.values())
-        node = OmegaConf.to_container(self.config.variants) if OmegaConf.is_config(self.config.variants) \
-            else self.config.variants
-        variants = read_variants(node)
+        node = self.master.variants
+        variants = read_variants(OmegaConf.to_container(node) if OmegaConf.is_config(node) else node)
         for together in variants.values():
             for key, value in together.items():
                 door.check_setting(key, value)
         jobs: list[Job] = []
         for typed in itertools.product(*(_choices(o) for key, o in merged.items() if key != "seed")):
-            for name, together in variants.items():
+            for variant, together in variants.items():
                 # What is swept or typed for one of a variant's settings gives way: the variant is what is compared.
                 overrides = [o for o in typed if _key(o) not in together]
                 overrides += [f"{key}={as_override(value)}" for key, value in together.items()]
                 values = {key: _value(overrides, key) for key in swept if key != "seed" and key not in together}
                 named = list(values)
-                if name is not None:
-                    values.update({"variant": name, **{key: _shown(value) for key, value in together.items()}})
+                if variant is not None:
+                    values.update({"variant": variant, **{key: _shown(value) for key, value in together.items()}})
                     named.append("variant")
                 jobs += _of_condition(composer.config(overrides), overrides, values, named, merged.get("seed"))
         check_different(jobs)
@@ -169,7 +169,7 @@ def _shown(value: Any) -> Any:
 class PluginFolders(SearchPathPlugin):
     """plugins/ may hold config groups too: plugins/world/mine.yaml is ``world=mine``."""
 
-    def manipulate_search_path(self, search_path) -> None:
+    def manipulate_search_path(self, search_path: ConfigSearchPath) -> None:
         for folder in config_folders():
             search_path.append(provider="attnlab", path=f"file://{folder}")
 

@@ -60,7 +60,7 @@ class Learner(ABC):
     on_policy = False  # does update need the next action? Then that is chosen before the update, otherwise after
 
     @classmethod
-    def prepare(cls, params: Any, play: Rehearse) -> dict[str, Any]:
+    def prepare(cls, params: Any, play: Rehearse) -> dict[str, Any]:  # noqa: ARG003  for those that need it
         """Called once before a run, with its parameters: settings of this learner that were found offline, by default
         none. ``play`` plays candidates in the run's world."""
         return {}

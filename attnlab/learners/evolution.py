@@ -38,7 +38,8 @@ class Evolution(Monitor):
         look_cost: float = setting(0.1, "what looking in every cycle costs, in units of survival", low=0)
         workers: int = setting(1, "processes; 0 for one a core", low=0, high=1024)
         default: Function = setting(Function(), "hand-set start, and the function of behaviours not named below")
-        behaviours: dict = setting({"eat": dict(SATISFY), "drink": dict(SATISFY)}, "hand-set start by behaviour")
+        behaviours: dict[str, Any] = setting({"eat": dict(SATISFY), "drink": dict(SATISFY)},
+                                             "hand-set start by behaviour")
 
     @classmethod
     def prepare(cls, params: Params, play: Rehearse) -> dict[str, Any]:
@@ -88,5 +89,5 @@ def cost(outcomes: list[Outcome], look_cost: float) -> float:
     return total / len(outcomes)
 
 
-def _unused(genome: Iterable[float]) -> float:
+def _unused(_: Iterable[float]) -> float:
     raise AssertionError("the workers evaluate")

@@ -34,7 +34,7 @@ class Runs:
         """Rows of these runs in a table, with a ``seed`` column; ``equal``: column=value to keep."""
         return self.conditions.rows(table, self.runs, equal)
 
-    def config(self, seed: int) -> dict:
+    def config(self, seed: int) -> dict[str, Any]:
         """The resolved config of the run with this seed."""
         return self.conditions.configs[self.runs[seed]]
 
@@ -104,7 +104,8 @@ class Conditions:
 
     def matching(self, where: Mapping[str, Any], stratum: Mapping[str, str]) -> tuple[Runs, str]:
         """Runs with these settings (a role of a claims file), within a stratum; a note if seeds were found twice."""
-        found, twice = {}, 0
+        found: dict[int, str] = {}
+        twice = 0
         for key, seeds in sorted(self._by_key.items()):
             has = {"curiosity": key[0], **dict(zip(self.settings, key[1:], strict=True))}
             if all(has.get(name) == value for name, value in stratum.items()) and \
@@ -132,16 +133,17 @@ class Conditions:
                 if sum(other[place] == stratum[place] for other in self.strata) == 1:
                     return stratum[place]
             return f"combination {self.strata.index(stratum) + 1}"
-        if len(stratum) == 1 and list(self.labels.values()).count(self.labels.get(stratum[0])) == 1:
+        if len(stratum) == 1 and list(self.labels.values()).count(self.labels.get(stratum[0], "")) == 1:
             return self.labels[stratum[0]]
         return ", ".join(f"{name}={value}" for name, value in zip(self.settings, stratum, strict=True))
 
     def rows(self, table: str, runs: Mapping[int, str], equal: Mapping[str, Any]) -> pd.DataFrame:
         """Rows of runs (seed -> run) in a table."""
         frame = self.frame(table)
-        indices = self._indices.get(table)
-        if indices is None:
-            indices = self._indices[table] = frame.groupby("run", observed=True).indices if len(frame) else {}
+        if table not in self._indices:
+            of_run = frame.groupby("run", observed=True).indices if len(frame) else {}
+            self._indices[table] = {str(run): rows for run, rows in of_run.items()}
+        indices = self._indices[table]
         parts, seeds = [], []
         for seed, run in sorted(runs.items()):
             if run in indices:

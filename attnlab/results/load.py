@@ -93,9 +93,8 @@ class Study:
         settings."""
         import pandas as pd
         rows = []
-        for name, (status, why, about) in self._states.items():
-            if name in self._broken:
-                status, why = "damaged", self._broken[name]
+        for name, (state, reason, about) in self._states.items():
+            status, why = ("damaged", self._broken[name]) if name in self._broken else (state, reason)
             asked = self._asked.get(name)
             condition = self._conditions.get(asked.condition) if asked else None
             settings = condition.settings if condition else {}
@@ -219,7 +218,8 @@ class Studies:
         if name not in (*TABLES, "runs"):
             raise AttributeError(f"several studies have {', '.join(TABLES)} and runs, no {name}; ask one of .studies")
         import pandas as pd
-        return pd.concat([getattr(study, name) for study in self.studies], ignore_index=True)
+        frames: list[pd.DataFrame] = [getattr(study, name) for study in self.studies]
+        return pd.concat(frames, ignore_index=True)
 
 
 def _repeated(value: Any, rows: int) -> pa.Array:
@@ -243,8 +243,10 @@ def _last_episode(cycles: pa.Table) -> pa.Table:
 def _join(tables: list[pa.Table]) -> pd.DataFrame:
     """One frame of all rows; a column that a run lacks is empty there, and one of mixed types becomes text."""
     import pyarrow as pa
+    frame: pd.DataFrame
     try:
-        return pa.concat_tables(tables, promote_options="permissive").to_pandas()
+        frame = pa.concat_tables(tables, promote_options="permissive").to_pandas()
     except (pa.ArrowInvalid, pa.ArrowTypeError):
         import pandas as pd
-        return pd.concat([found.to_pandas() for found in tables], ignore_index=True)
+        frame = pd.concat([found.to_pandas() for found in tables], ignore_index=True)
+    return frame

@@ -14,7 +14,7 @@ def recovered(path: Path, states: Mapping[str, State] | None = None) -> StudyFil
     study, seen = StudyFile(), set()
     states = states_in(path) if states is None else states
     for name in sorted(states, key=lambda name: (not _is_home(name, states[name]), name)):
-        status, _, about = states[name]
+        _, _, about = states[name]
         key, seed = about.get("key"), about.get("seed")
         if not isinstance(key, str) or not isinstance(seed, int) or key in seen:
             continue

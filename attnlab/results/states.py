@@ -33,7 +33,7 @@ def state_of(folder: Path) -> State:
 def _check_parquet(path: Path) -> str:
     """Empty if the file has a Parquet head and tail, else what is wrong. Cheap: reads 8 bytes."""
     try:
-        with open(path, "rb") as file:
+        with path.open("rb") as file:
             head = file.read(4)
             file.seek(-4, 2)
             tail = file.read(4)

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attnlab.results.load import Study
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 FORMS = {"early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "energy": ".0f", "safety": ".2f"}
 
@@ -18,7 +21,7 @@ def needs_in(columns: Iterable[str]) -> list[str]:
             and f"{name}_max" in columns and f"{name}_min" not in columns]
 
 
-def summary_frame(study: Study, named: Mapping[str, str]):
+def summary_frame(study: Study, named: Mapping[str, str]) -> pd.DataFrame:
     """One row a condition (pandas frame): means over seeds of survival (early and late half of training, validation),
     needs, activations and safety (all of validation, or of training where there is none). ``named``: the runs to take,
     and what the condition of each is called; rows come in that order."""
@@ -73,7 +76,7 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
         table.add_column(head, justify="left" if key in ("condition", "activations") else "right", overflow="fold",
                          no_wrap=key != "condition")
     for row in frame.to_dict("records"):
-        table.add_row(*map(Text, shown(row)))
+        table.add_row(*map(Text, shown({str(name): value for name, value in row.items()})))
     console = Console(width=None if _is_terminal() else 110)
     console.print(table)
     lines = {"results": study.path, **made, **hints}

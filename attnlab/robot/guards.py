@@ -9,6 +9,7 @@ from __future__ import annotations
 import traceback
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
 from attnlab import registry
 from attnlab.attention import Attention
@@ -32,7 +33,7 @@ def check_log(attention: Attention) -> None:
         if not 0 <= level < levels:
             raise PartError(curiosity, f"gave level {level}, no index of {curiosity.levels}")
         if reward is not None and not isfinite(reward):
-            if not isfinite(extrinsic):
+            if extrinsic is None or not isfinite(extrinsic):
                 raise PartError(behaviour, f"gave reward {extrinsic}")
             raise PartError(curiosity, f"mixed a reward of {reward}")
     if attention.action < 0:
@@ -42,7 +43,7 @@ def check_log(attention: Attention) -> None:
 def check_commands(agent: Agent) -> None:
     """Every held command is two finite numbers. Raises :class:`PartError`."""
     for attention in agent.attentions:
-        command = attention.command
+        command: Any = attention.command  # a part's word for it
         try:
             fine = command is None or (len(command) == 2 and isfinite(command[0]) and isfinite(command[1]))
         except TypeError:
@@ -57,15 +58,16 @@ def diagnose(agent: Agent) -> None:
     for attention in agent.attentions:
         check_log(attention)
         behaviour, curiosity, learner, now = attention.behaviour, attention.curiosity, attention.learner, agent.now
-        sigma = behaviour.percept(now)
+        sigma: Any = behaviour.percept(now)  # a part's word, as the two below
         if not isinstance(sigma, (int, float)) or not behaviour.sigma_low <= sigma <= behaviour.sigma_high:
             raise PartError(behaviour, f"perceived {sigma!r}, outside [{behaviour.sigma_low}, {behaviour.sigma_high}]")
         wanting = curiosity.wanting(attention.memory, agent.body.energy)
-        level = curiosity.level(wanting, attention.liking)
+        level: Any = curiosity.level(wanting, attention.liking)
         if not isinstance(level, int) or not 0 <= level < len(curiosity.levels):
             raise PartError(curiosity, f"gave level {level!r}, no index of {curiosity.levels}")
-        if not isinstance(attention.action, int) or not 0 <= attention.action < len(attention.periods):
-            raise PartError(learner, f"chose {attention.action!r}, no index of the periods {attention.periods}")
+        action: Any = attention.action
+        if not isinstance(action, int) or not 0 <= action < len(attention.periods):
+            raise PartError(learner, f"chose {action!r}, no index of the periods {attention.periods}")
 
 
 def blame(cause: BaseException) -> str:
@@ -75,9 +77,10 @@ def blame(cause: BaseException) -> str:
                if not Path(spec.origin).is_relative_to(PACKAGE)}
     theirs = [f for f in frames if str(Path(f.filename).parent) in folders]
     ours = [f for f in frames if Path(f.filename).is_relative_to(PACKAGE)]
-    chosen = (theirs or ours or frames or [None])[-1]
-    if chosen is None:
+    found = theirs or ours or list(frames)
+    if not found:
         return "a part"
+    chosen = found[-1]
     path = Path(chosen.filename)
     return f"{path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path}:{chosen.lineno}"
 

@@ -6,7 +6,7 @@ import copy
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from attnlab import registry
 from attnlab.attention import Attention
@@ -15,7 +15,7 @@ from attnlab.config import RunSettings, layout_of, reading_of
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
-from attnlab.learners.base import Rehearse
+from attnlab.learners.base import Learner, Rehearse
 from attnlab.probes.base import Probe
 from attnlab.reading import Reading
 from attnlab.robot.contexts import Making
@@ -64,7 +64,8 @@ class RunPlan:
     def prepare(self, play: Rehearse) -> None:
         """What a learner does before the run."""
         spec, params = registry.build_params("learner", self.settings.learner, "learner")
-        self.found = spec.cls.prepare(params, play)
+        learner: type[Learner] = spec.cls
+        self.found = learner.prepare(params, play)
 
     def _layout(self) -> Layout:
         try:
@@ -90,7 +91,7 @@ class RunPlan:
     def _try_parts(self) -> None:
         """Construct everything that is cheap, so that a part's own complaint comes before the first run."""
         try:
-            agent = self.agent(simulator=_NoSimulator())
+            agent = self.agent(simulator=cast(Simulator, _NoSimulator()))
             self.callbacks()
             self._check_probes(self.probes())
         except ConfigError:
@@ -174,7 +175,8 @@ class RunPlan:
         node = self.settings.exploration
         if phase == "validation" and self.reading.validation_exploration == "greedy":
             node = {"name": "greedy"}
-        return registry.make("exploration", node, None)
+        chosen: Exploration = registry.make("exploration", node, None)
+        return chosen
 
     def start_pose(self, phase: str, episode: int) -> tuple[float, float, float]:
         """Where an episode starts: from the seed alone, so that all conditions share it."""

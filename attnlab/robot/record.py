@@ -108,8 +108,8 @@ class Recorder:
         paid = [a for a in log if a.reward is not None]
         self._add("behaviours", **self.run_columns, phase=phase, episode=episode, behaviour=attention.behaviour.name,
                   activations=len(log), releases=sum(a.released for a in log),
-                  reward=sum(a.reward for a in paid) + penalty,
-                  reward_extrinsic=sum(a.extrinsic for a in paid) + penalty, penalty=penalty,
+                  reward=sum(a.reward or 0.0 for a in paid) + penalty,
+                  reward_extrinsic=sum(a.extrinsic or 0.0 for a in paid) + penalty, penalty=penalty,
                   liking_mean=sum(a.liking for a in log) / len(log), period_mean=sum(a.period for a in log) / len(log),
                   **self.swept, **added)
 
@@ -126,7 +126,7 @@ class Recorder:
         before = agent.simulator.trace[:n]
         turn = (path[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
         columns = self.tables["cycles"]
-        rows = {"run": [self.run_columns["run"]] * n, "phase": [phase] * n, "episode": [episode] * n,
+        rows: dict[str, Any] = {"run": [self.run_columns["run"]] * n, "phase": [phase] * n, "episode": [episode] * n,
                 "cycle": range(n), "x_m": path[:, 0], "y_m": path[:, 1], "heading_rad": path[:, 2],
                 "v_m_s": np.hypot(path[:, 0] - before[:, 0], path[:, 1] - before[:, 1]) / dt, "w_rad_s": turn / dt,
                 "hunger": needs.get("hunger", [None] * n), "thirst": needs.get("thirst", [None] * n),
@@ -156,10 +156,10 @@ class Recorder:
                 for action, (q, visits) in enumerate(zip(learner.values(state), learner.visits[state], strict=True)):
                     self._add("policy", run=run, behaviour=attention.behaviour.name, curiosity_level=level,
                               period=period, percept=percept, action=periods[action], q=q, visits=visits)
-        for phase, visits in self._visits.items():
-            for cell in np.flatnonzero(visits).tolist():
+        for phase, cells in self._visits.items():
+            for cell in np.flatnonzero(cells).tolist():
                 self._add("coverage", run=run, phase=phase, x_cell=cell // self._cells[1],
-                          y_cell=cell % self._cells[1], visits=int(visits[cell]))
+                          y_cell=cell % self._cells[1], visits=int(cells[cell]))
         return self.tables
 
 

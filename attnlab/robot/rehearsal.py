@@ -58,7 +58,7 @@ class Rehearsal:
         for text, outcomes in zip(new, self._play(new, episodes, workers or os.cpu_count() or 1), strict=True):
             self._seen[text] = outcomes
             if file is not None:
-                with open(file, "a") as lines:
+                with file.open("a") as lines:
                     lines.write(json.dumps({"key": key, "candidate": text, "outcomes": outcomes}) + "\n")
         return [self._seen[text] for text in texts]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from itertools import pairwise
 from math import dist, pi
 from pathlib import Path
 
@@ -79,7 +80,7 @@ def check_keyframes(keyframes: list[list[float]]) -> tuple[list[float], list[Poi
     if not keyframes or any(len(frame) != 2 or frame[1] < 0 for frame in keyframes):
         raise ConfigError("simulator.keyframes", "each must be [t s, distance m], the distance 0 or more")
     times = [frame[0] for frame in keyframes]
-    if any(b <= a for a, b in zip(times, times[1:], strict=False)):
+    if any(b <= a for a, b in pairwise(times)):
         raise ConfigError("simulator.keyframes", f"the times {times} must rise")
     return times, [(frame[1], 0.0, 0.0) for frame in keyframes]
 
@@ -91,7 +92,7 @@ def read_csv(path: str) -> tuple[list[float], list[Point]]:
         raise ConfigError("simulator.csv", f"there is no file {path}")
     times: list[float] = []
     points: list[Point] = []
-    with open(path, newline="") as file:
+    with Path(path).open(newline="") as file:
         for line, row in enumerate(csv.DictReader(file), start=2):
             try:
                 t, point = float(row["t_s"]), (float(row["x_m"]), float(row["y_m"]), float(row.get("z_m") or 0.0))

@@ -15,7 +15,7 @@ def dig(node: Any, name: str) -> Any:
     return node
 
 
-def flatten(node: Mapping, prefix: str = "") -> dict[str, Any]:
+def flatten(node: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Every setting by its dotted name."""
     flat = {}
     for name, value in node.items():
@@ -33,7 +33,7 @@ def text(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value, default=str)
 
 
-def natural(value: str) -> tuple:
+def natural(value: str) -> tuple[Any, ...]:
     """Numbers by size before words by letter; numbers within words by size."""
     try:
         return (0, float(value), ())

@@ -20,7 +20,7 @@ def locked(folder: Path, patience_s: float = 60.0) -> Iterator[None]:
     except ImportError:  # no such locks on this system: two commands that grow a study at once are on their own
         yield
         return
-    with open(folder / FILE, "a") as file:
+    with (folder / FILE).open("a") as file:
         until = time.monotonic() + patience_s
         while True:
             try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
@@ -70,7 +71,7 @@ def test_the_clock_fires_exactly_when_its_period_is_over(actions, cycles):
     a = drive(attention([0.2, 0.9]), Choose(actions), cycles)
     at = [x.cycle for x in a.log]
     assert at[0] == 0
-    assert [late - early for early, late in zip(at, at[1:], strict=False)] == [x.period for x in a.log][:-1]
+    assert [late - early for early, late in pairwise(at)] == [x.period for x in a.log][:-1]
     assert a.due >= cycles
     assert sum(x.period for x in a.log) == a.due
 

@@ -203,10 +203,10 @@ def test_a_wrong_component_is_named():
         make("curiosity", "composed", liking="suprise")
     with pytest.raises(ConfigError, match=r"curiosity.liking.directon: no such setting"):
         make("curiosity", "composed", liking={"name": "surprise", "directon": "post_prior"})
+    node = "litman"
+    for _ in range(9):
+        node = {"name": "additive", "signal": node}
     with pytest.raises(ConfigError, match="nested more than"):
-        node = "litman"
-        for _ in range(9):
-            node = {"name": "additive", "signal": node}
         make("curiosity", "composed", liking=node)
 
 

@@ -187,7 +187,7 @@ def test_a_broken_plugin_and_a_crash_take_nobody_down(with_plugins, attnlab):
     assert done.returncode == 1
     assert "broken.py did not load" in done.stderr and "SyntaxError" in done.stderr
     state = load(with_plugins / "outputs" / "main").runs
-    by = {tuple(o for o in row["overrides"] if o.startswith("behaviours"))[0]: row for _, row in state.iterrows()}
+    by = {next(o for o in row["overrides"] if o.startswith("behaviours")): row for _, row in state.iterrows()}
     assert by["behaviours=[avoid,eat,drink]"]["status"] == "complete"
     assert "SIGSEGV" in by["behaviours=[killer,eat,drink]"]["error"]
     assert "the sensor fell off" in by["behaviours=[raiser,eat,drink]"]["error"]
