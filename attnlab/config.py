@@ -8,13 +8,13 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Any, Literal, get_args, get_origin
 
 from attnlab import registry
 from attnlab.errors import ConfigError, nearest
 from attnlab.groups import GROUPS
 from attnlab.reading import Reading
-from attnlab.settings import build, cosmetics, setting
+from attnlab.settings import build, cosmetics, hints_of, setting
 from attnlab.worlds.base import Layout
 
 
@@ -91,7 +91,7 @@ def check_path(path: str) -> None:
         raise no_such_setting(path)
     group = GROUPS.get(head)
     if group is None:
-        hint = Reading if head == "reading" else get_type_hints(RunSettings)[head]
+        hint = Reading if head == "reading" else hints_of(RunSettings)[head]
         _walk([hint], rest, path)
         return
     specs = [spec for spec in registry.parts.values() if spec.group == head]
@@ -114,8 +114,8 @@ def _walk(owners: Sequence[Any], rest: Sequence[str], path: str) -> None:
         for kind in (owner, *get_args(owner)):
             if kind is Any or kind is dict or get_origin(kind) is dict:
                 return  # names of one's own
-            if dataclasses.is_dataclass(kind):
-                for name, hint in get_type_hints(kind).items():
+            if isinstance(kind, type) and dataclasses.is_dataclass(kind):
+                for name, hint in hints_of(kind).items():
                     known.setdefault(name, []).append(hint)
     if rest[0] not in known:
         raise ConfigError(path, "no such setting", nearest(rest[0], known) if known else "It takes no settings")

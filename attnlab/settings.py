@@ -52,7 +52,7 @@ def build(cls: type[Settings], node: Any, where: str) -> Settings:
         if key not in fields:
             known = nearest(str(key), fields) if fields else "It takes no settings"
             raise ConfigError(f"{where}.{key}" if where else str(key), "no such setting", known)
-    hints = _hints(cls)
+    hints = hints_of(cls)
     values = {}
     for key, value in node.items():
         path = f"{where}.{key}" if where else key
@@ -67,7 +67,8 @@ def build(cls: type[Settings], node: Any, where: str) -> Settings:
 
 
 @cache
-def _hints(cls: type) -> dict[str, Any]:
+def hints_of(cls: type) -> dict[str, Any]:
+    """The types of a dataclass's fields."""
     return typing.get_type_hints(cls)
 
 
