@@ -44,6 +44,7 @@ class Attention:
         self._terms = [period_term(p, min(periods), max(periods)) if max(periods) > min(periods) else 0.0
                        for p in periods]
         self._first = self.periods.index(min(periods))
+        self._firing_counts = reading.active == "fired"
         self._chosen_pays = reading.reward_period == "chosen"
         self._choose_first = self._chosen_pays or learner.on_policy
         self._row_levels = [level * len(periods) * self.bins for level in range(len(curiosity.levels))]
@@ -64,8 +65,9 @@ class Attention:
         self.behaviour.start()
         self.learner.start()
 
-    def activate(self, now: Senses, exploration: Exploration, learning: bool) -> None:
-        """The clock fires: look, be rewarded for the period that elapsed, learn, choose the next, command."""
+    def activate(self, now: Senses, exploration: Exploration, learning: bool) -> int:
+        """The clock fires: look, be rewarded for the period that elapsed, learn, choose the next, command. Returns
+        1 if that counts as active in eqs 5, 6 and 10, else 0."""
         behaviour, curiosity, learner, memory = self.behaviour, self.curiosity, self.learner, self.memory
         sigma = behaviour.percept(now)
         percept = percept_bin(sigma, behaviour.sigma_low, behaviour.sigma_high, self.bins)
@@ -90,6 +92,7 @@ class Attention:
         self.command = behaviour.command(now, sigma) if released else None
         self.log.append(Activation(now.cycle, sigma, percept, level, self.period, wanting, liking, released, reward,
                                    extrinsic))
+        return 1 if released or self._firing_counts else 0
 
     def died(self, share: float, learning: bool) -> float:
         """The robot died: the penalty this behaviour gets for its running period, ``share`` of all (0.0 if none)."""

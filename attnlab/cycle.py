@@ -54,8 +54,7 @@ def machine_cycle(agent: Agent, exploration: Exploration, learning: bool) -> tup
     for attention in agent.attentions:
         # 1. Whoever's clock fires looks, is rewarded for the period that elapsed, learns, and chooses the next.
         if attention.due == start:
-            attention.activate(now, exploration, learning)
-            active += 1
+            active += attention.activate(now, exploration, learning)
         if attention.due < idle_until:
             idle_until = attention.due
         if attention.command is not None:

@@ -43,12 +43,16 @@ def period_term(period_mc: float, shortest_mc: float, longest_mc: float) -> floa
 
 
 def avoid_reward(period: float, sigma_m: float, sigma_min_m: float, sigma_max_m: float) -> float:
-    """(7) without its penalty case; ``period`` is the period term in [0, 1], sigma the nearest obstacle."""
-    return 0.5 * (period + (sigma_m - sigma_min_m) / (sigma_max_m - sigma_min_m))
+    """(7) without its penalty case; ``period`` is the period term in [0, 1], sigma the nearest obstacle.
+
+    Nearer than sigma_min the second term is 0: "we assume the reward always positive except for a strong penalty".
+    That it is the term that is cut, and not their sum, is ours.
+    """
+    return 0.5 * (period + max(0.0, (sigma_m - sigma_min_m) / (sigma_max_m - sigma_min_m)))
 
 
 def need_reward(period: float, sigma: float, sigma_max: float) -> float:
-    """(8) EAT and (9) DRINK without their penalty case: the needier, the smaller the reward."""
+    """(8) EAT and (9) DRINK without their penalty case: the needier, the smaller the reward. They have no sigma_min."""
     return 0.5 * (period + 1.0 - sigma / sigma_max)
 
 

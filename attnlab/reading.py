@@ -27,18 +27,26 @@ class Reading:
     energy_carry_over: bool = setting(False, "start an episode with the energy the last one ended with; a robot that "
                                       "died starts with energy_start")
     energy_death: bool = setting(False, "die when energy falls below energy_min")
+    energy_clipped: bool = setting(False, "is energy cut at energy_max; ours, as eq 10 has it: no")
     energy_min: float = setting(300.0, "E_min of Table 4", unit="UoE", low=0)
     # needs
     need_k: float = setting(1.0, "k of eqs 5, 6: growth of a need for each active behaviour", unit="UoE", low=0)
     need_start: float = setting(300.0, "hunger and thirst at the start of an episode", unit="UoE", low=0)
     need_max: float = setting(1500.0, "largest hunger and thirst, sigma_max of EAT and DRINK", unit="UoE", above=0)
-    need_min: float = setting(300.0, "sigma_min of EAT and DRINK in Table 4", unit="UoE", low=0)
+    need_min: float = setting(300.0, "sigma_min of EAT and DRINK in Table 4: eqs 8, 9 have none; the lowest percept "
+                              "with percept_domain=min_to_max", unit="UoE", low=0)
     need_death: bool = setting(True, "die when hunger or thirst reaches need_max")
+    needs_floored: bool = setting(False, "are hunger and thirst cut at 0; ours, as eqs 5, 6 have it: no")
+    active: Literal["fired", "released"] = setting(
+        "fired", "whom eqs 5, 6, 10 count as active: whose clock fired (ours), or only those whose motor schema was on")
     releaser_threshold: float = setting(300.0, "EAT and DRINK are released at this need (the text says sigma_max)",
                                         unit="UoE", low=0)
     # percepts
     avoid_sigma_max_m: float = setting(1.0, "sigma_max of AVOID, from the robot's centre", unit="m", above=0)
-    avoid_sigma_min_m: float = setting(0.4, "sigma_min of AVOID in Table 4", unit="m", low=0)
+    avoid_sigma_min_m: float = setting(0.4, "sigma_min of AVOID in Table 4: the lowest percept with "
+                                       "percept_domain=min_to_max", unit="m", low=0)
+    reward_sigma_min_m: float = setting(0.4, "sigma_min of eq 7's reward, Table 4's; nearer, the term is 0 (ours)",
+                                        unit="m", low=0)
     percept_domain: Literal["zero_to_max", "min_to_max"] = setting(
         "zero_to_max", "domain cut into percepts: [0, max] as the text says, or [min, max]")
     percept_bins: int = setting(6, "equal intervals of the domain", low=1, high=100)
@@ -66,12 +74,18 @@ class Reading:
     safety_distance_m: float = setting(0.4, "safety distance from the robot's centre", unit="m", above=0, high=2)
     v_max_m_s: float = setting(0.4, "largest linear speed", unit="m/s", above=0, high=2)
     w_max_rad_s: float = setting(1.5, "largest angular speed", unit="rad/s", above=0, high=10)
+    speed_law: Literal["stopping", "proportional"] = setting(
+        "stopping", "AVOID's speed: from v_max at sigma_max to 0 at stop_distance_m (ours), or v_max sigma / sigma_max "
+        "(the paper's)")
     stop_distance_m: float | None = setting(
-        None, "AVOID's speed falls from v_max at sigma_max to 0 here; left out: 0.35, or safety_distance_m + 0.2 with "
-        "crash=safety_distance, where a robot that stops at 0.35 dies turning", unit="m", low=0)
-    food_reach_m: float = setting(0.75, "a source is consumed when its blob looks nearer than this to the centre",
-                                  unit="m", above=0)
-    meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind", unit="mc", low=1)
+        None, "where AVOID stops with speed_law=stopping; left out: danger_m", unit="m", low=0)
+    turn_rule: Literal["keeps_side", "sum"] = setting(
+        "keeps_side", "AVOID's turn: the sum over active sonars, but once blocked it keeps to the side it chose (ours), "
+        "or the sum alone (the paper's)")
+    food_reach_m: float = setting(0.75, "a source is consumed when its blob looks nearer than this to the centre; "
+                                  "ours, the paper has none", unit="m", above=0)
+    meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind; ours, the paper has none: 1",
+                                        unit="mc", low=1)
     food_supply: Literal["endless", "depletion", "respawn"] = setting(
         "endless", "sources are endless, empty after food_portions meals (depletion), or fill again after "
         "food_respawn_cycles (respawn)")
@@ -90,16 +104,22 @@ class Reading:
                               "The robot would be dead at the start")
         if self.avoid_sigma_min_m >= self.avoid_sigma_max_m:
             raise ConfigError("avoid_sigma_min_m", "must be below avoid_sigma_max_m")
-        if self.stop_m >= self.avoid_sigma_max_m:
+        if self.reward_sigma_min_m >= self.avoid_sigma_max_m:
+            raise ConfigError("reward_sigma_min_m", "must be below avoid_sigma_max_m")
+        if self.speed_law == "stopping" and self.stop_m >= self.avoid_sigma_max_m:
             raise ConfigError("stop_distance_m", f"is {self.stop_m}, must be below avoid_sigma_max_m "
                               f"({self.avoid_sigma_max_m})")
         if self.need_min >= self.need_max:
             raise ConfigError("need_min", "must be below need_max")
 
     @property
-    def stop_m(self) -> float:
-        """Where AVOID stops (m, centre to echo). The values left out were chosen by the design test (AVOID at fixed
-        periods, nothing learned) before any comparison of conditions."""
-        if self.stop_distance_m is not None:
-            return self.stop_distance_m
+    def danger_m(self) -> float:
+        """How near (m, centre to echo) the robot may come without danger of its life: 0.35, or with
+        crash=safety_distance, where a robot that stops at 0.35 dies turning, safety_distance_m + 0.2. Chosen by the
+        design test (AVOID at fixed periods, nothing learned) before any comparison of conditions."""
         return 0.35 if self.crash == "contact" else self.safety_distance_m + 0.2
+
+    @property
+    def stop_m(self) -> float:
+        """Where AVOID stops (m, centre to echo) with speed_law=stopping."""
+        return self.danger_m if self.stop_distance_m is None else self.stop_distance_m

@@ -16,6 +16,7 @@ from attnlab.robot.plan import RunPlan
 from attnlab.tables.code import code
 from attnlab.tables.flat import text
 from attnlab.tables.processes import is_running
+from attnlab.tables.schema import SCHEMA_VERSION
 from attnlab.tables.study import Condition, condition_config, condition_key
 
 OTHER_CODE = "made by other code"
@@ -116,6 +117,8 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
                                   "Wait for it, or name another: study=...")
             if status == "complete" and about.get("key") == job.key:
                 job.folder = folder
+                if about.get("schema") != SCHEMA_VERSION:
+                    reason = "with tables of an older version"
                 if about.get("plugins") not in (None, plugin_hashes(job.config)):
                     reason = "made before its plugin was changed"
                 break

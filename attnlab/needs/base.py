@@ -63,6 +63,8 @@ class Body:
         self.dead = False
         self._deadly = [(i, need, need.death_at) for i, need in enumerate(needs) if need.death_at is not None]
         self._energy_floor = reading.energy_min if reading.energy_death else None
+        self._ceiling = reading.energy_max if reading.energy_clipped else None
+        self._floored = reading.needs_floored
         self._rates = [(need.per_activation, need.per_cycle, need.feeds_energy) for need in needs]
         self.start()
 
@@ -89,14 +91,14 @@ class Body:
         counting the one it dies in."""
         eaten = self._eaten
         for i, need, limit in self._deadly:
-            left = limit - need_after_cycle(self.values[i], need.per_activation, active, eaten[i])
+            left = limit - self._floor(need_after_cycle(self.values[i], need.per_activation, active, eaten[i]))
             if left - need.per_cycle <= 0:
                 return 1
             if need.per_cycle > 0:
                 cycles = min(cycles, ceil(left / need.per_cycle))
         if self._energy_floor is not None:
             fed = sum(eaten[i] for i, rate in enumerate(self._rates) if rate[2])
-            left = energy_after_cycle(self.energy, 0.0, self.e_nb, active, fed) - self._energy_floor
+            left = self._clip(energy_after_cycle(self.energy, 0.0, self.e_nb, active, fed)) - self._energy_floor
             if left - self.e_u < 0:
                 return 1
             if self.e_u > 0:
@@ -108,10 +110,13 @@ class Body:
         values, eaten = self.values, self._eaten
         fed = 0.0
         for i, (per_activation, per_cycle, feeds) in enumerate(self._rates):
-            values[i] = need_after_cycle(values[i], per_activation, active, eaten[i]) + per_cycle * cycles
+            values[i] = self._floor(need_after_cycle(values[i], per_activation, active, eaten[i])) + per_cycle * cycles
             if feeds:
                 fed += eaten[i]
-        self.energy = energy_after_cycle(self.energy, self.e_u * cycles, self.e_nb, active, fed)
+        if self._ceiling is None:
+            self.energy = energy_after_cycle(self.energy, self.e_u * cycles, self.e_nb, active, fed)
+        else:
+            self.energy = self._clip(energy_after_cycle(self.energy, 0.0, self.e_nb, active, fed)) - self.e_u * cycles
         if self._ate:
             self._eaten = [0.0] * len(values)
             self._ate = False
@@ -121,6 +126,15 @@ class Body:
         if self._energy_floor is not None and self.energy < self._energy_floor:
             return "energy"
         return None
+
+
+    def _clip(self, energy: float) -> float:
+        """Energy at what there can be of it (``reading.energy_clipped``), before the cycle takes its share."""
+        return energy if self._ceiling is None else min(energy, self._ceiling)
+
+    def _floor(self, need: float) -> float:
+        """A need at what there can be of it (``reading.needs_floored``)."""
+        return max(0.0, need) if self._floored else need
 
 
 class Needs(ABC):

@@ -25,8 +25,8 @@ class Lived:
     """An episode that was lived, for those who watch. Arrays are read-only.
 
     ``cycles`` n; ``death``: the cause, or None; ``path`` (n + 1, 3): pose (x m, y m, heading rad) at the start and
-    after each cycle; ``energy``, ``wanting``, ``safety`` (None where nobody answers for crashes) and each of ``needs``
-    (n,): after each cycle; ``looks``: every activation, by behaviour.
+    after each cycle; ``energy``, ``wanting``, ``safety`` and ``safety_held`` (from the true distance, from AVOID's
+    last percept; None where nobody answers for crashes) and each of ``needs`` (n,): after each cycle; ``looks``: every activation, by behaviour.
     """
     phase: str
     episode: int
@@ -37,6 +37,7 @@ class Lived:
     energy: Values
     wanting: Values
     safety: Values | None
+    safety_held: Values | None
     needs: Mapping[str, Values]
     looks: Mapping[str, tuple[Activation, ...]]
 

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from attnlab.errors import ConfigError, nearest
-from attnlab.results.old import recovered
+from attnlab.results.arrow import join, last_episode, repeated
+from attnlab.results.old import recovered, upgraded
 from attnlab.results.states import looks_like_run, states_in
 from attnlab.tables.schema import TABLES
 from attnlab.tables.study import FILE, Condition, read_study
@@ -149,7 +150,7 @@ class Study:
 
             def cut(found: pa.Table) -> pa.Table:
                 found = found.drop_columns([name for name in found.column_names if name in swept])
-                found = _last_episode(found) if table == "cycles" else found
+                found = last_episode(found) if table == "cycles" else found
                 for place, name in enumerate(found.column_names):
                     if name in ("run", "phase"):
                         found = found.set_column(place, name, found.column(name).dictionary_encode())
@@ -169,19 +170,20 @@ class Study:
                 self._broken[name] = f"{table}.parquet: {cause}"
                 self.__dict__.pop("runs", None)
                 continue
+            found = upgraded(found, table, self.about(name))
             tables.append(self._marked(name, found, table) if cut is None else cut(found))
         tables = [found for found in tables if len(found)] or tables[:1]
-        return _join(tables) if tables else pd.DataFrame()
+        return join(tables) if tables else pd.DataFrame()
 
     def _marked(self, run: str, found: pa.Table, table: str) -> pa.Table:
         """A run's table with the study, the condition, and the settings that set it apart."""
         condition = self.condition(run)
         for place, (name, value) in enumerate((("study", self.name), ("condition", condition.name))):
-            found = found.add_column(place, name, _repeated(value, len(found)))
+            found = found.add_column(place, name, repeated(value, len(found)))
         if "episode" in found.column_names and table != "cycles":
             for name in self.swept:
                 if name not in found.column_names:
-                    found = found.append_column(name, _repeated(condition.settings.get(name), len(found)))
+                    found = found.append_column(name, repeated(condition.settings.get(name), len(found)))
         return found
 
     @cached_property
@@ -220,33 +222,3 @@ class Studies:
         import pandas as pd
         frames: list[pd.DataFrame] = [getattr(study, name) for study in self.studies]
         return pd.concat(frames, ignore_index=True)
-
-
-def _repeated(value: Any, rows: int) -> pa.Array:
-    """A column of one value, stored once."""
-    import pyarrow as pa
-    if isinstance(value, str):
-        return pa.DictionaryArray.from_arrays(pa.array([0] * rows, pa.int32()), [value])
-    return pa.array([value] * rows)
-
-
-def _last_episode(cycles: pa.Table) -> pa.Table:
-    """The rows at the end that belong to the last row's phase and episode."""
-    import numpy as np
-    if not len(cycles):
-        return cycles
-    episode, phase = (cycles.column(name).to_numpy() for name in ("episode", "phase"))
-    others = np.flatnonzero((episode != episode[-1]) | (phase != phase[-1]))
-    return cycles.slice(others[-1] + 1 if others.size else 0)
-
-
-def _join(tables: list[pa.Table]) -> pd.DataFrame:
-    """One frame of all rows; a column that a run lacks is empty there, and one of mixed types becomes text."""
-    import pyarrow as pa
-    frame: pd.DataFrame
-    try:
-        frame = pa.concat_tables(tables, promote_options="permissive").to_pandas()
-    except (pa.ArrowInvalid, pa.ArrowTypeError):
-        import pandas as pd
-        frame = pd.concat([found.to_pandas() for found in tables], ignore_index=True)
-    return frame

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from attnlab.results.states import State, read_config, states_in
 from attnlab.tables.study import Condition, StudyFile, condition_config, condition_key
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 
 def recovered(path: Path, states: Mapping[str, State] | None = None) -> StudyFile:
@@ -41,3 +45,21 @@ def _is_home(name: str, state: State) -> bool:
     """Is this the folder that the run was made in, and no copy of it?"""
     about = state[2]
     return name == about["run"] if "run" in about else name.rpartition("-")[2] == about.get("key")
+
+
+def upgraded(found: pa.Table, table: str, about: Mapping[str, Any]) -> pa.Table:
+    """A table as today's schema has it. In schema 1 rewards held their penalty, and safety was what is now
+    ``safety_held``: nobody knows the true one any more."""
+    if about.get("schema") != 1:
+        return found
+    import pyarrow as pa
+    import pyarrow.compute as pc
+    if table == "behaviours":
+        for name in ("reward", "reward_extrinsic"):
+            place = found.column_names.index(name)
+            found = found.set_column(place, name, pc.subtract(found.column(name), found.column("penalty")))
+    for place, name in enumerate(found.column_names):
+        if table in ("episodes", "cycles") and name.startswith("safety"):
+            found = found.append_column(name.replace("safety", "safety_held"), found.column(name))
+            found = found.set_column(place, name, pa.nulls(len(found), pa.float64()))
+    return found

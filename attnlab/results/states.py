@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from attnlab.tables.files import read_json
-from attnlab.tables.schema import SCHEMA_VERSION, TABLES
+from attnlab.tables.schema import OLDEST_SCHEMA, SCHEMA_VERSION, TABLES
 
 State = tuple[str, str, dict[str, Any]]  # (status, why, run.json)
 
@@ -19,9 +19,9 @@ def state_of(folder: Path) -> State:
         return "incomplete", f"{missing}; the run was interrupted or is not one", {}
     status = str(about.get("status"))
     if status == "complete":
-        if about.get("schema") != SCHEMA_VERSION:
-            return "damaged", (f"tables of schema {about.get('schema')}, this version reads schema {SCHEMA_VERSION}; "
-                               "run it again with fresh=true"), about
+        if about.get("schema") not in range(OLDEST_SCHEMA, SCHEMA_VERSION + 1):
+            return "damaged", (f"tables of schema {about.get('schema')}, this version reads {OLDEST_SCHEMA} to "
+                               f"{SCHEMA_VERSION}; run it again with fresh=true"), about
         for table in TABLES:
             problem = _check_parquet(folder / f"{table}.parquet")
             if problem:

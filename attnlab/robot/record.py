@@ -11,12 +11,12 @@ import numpy.typing as npt
 
 from attnlab.attention import Attention
 from attnlab.cycle import Agent
-from attnlab.equations import safety as safety_at
 from attnlab.needs.base import Body
 from attnlab.probes.base import Lived, Probe, Values
 from attnlab.robot.guards import check_commands, check_log
 from attnlab.robot.identities import check_balance, check_clock, check_safety
 from attnlab.robot.observers import Observers
+from attnlab.robot.summaries import bouts, distances, guard_of, held, safety, safety_held, turning
 from attnlab.tables.schema import CELL_M
 from attnlab.worlds.base import Layout
 
@@ -32,7 +32,7 @@ class Recorder:
                  probes: Sequence[Probe] = (), observers: Observers | None = None):
         self.probes, self.observers = probes, observers or Observers()
         self.run_columns = {"run": run, "seed": seed, "curiosity": curiosity}
-        self.swept, self.check = swept, check
+        self.swept, self.check, self.layout = swept, check, layout
         self.tables: Tables = {name: defaultdict(list) for name in
                                                    ("episodes", "behaviours", "policy", "cycles", "coverage")}
         self._cells = (int(np.ceil(layout.width_m / CELL_M - 1e-9)), int(np.ceil(layout.depth_m / CELL_M - 1e-9)))
@@ -54,8 +54,8 @@ class Recorder:
         energy = np.repeat(moments[1:, 2], lengths) + body.e_u * remaining
         needs = {need.name: np.repeat(moments[1:, 3 + i], lengths) - need.per_cycle * remaining
                  for i, need in enumerate(body.needs)}
-        safety = self._safety(agent, n)
         path = agent.simulator.trace[:n + 1]
+        safe, safe_held = self._safety(agent, path[1:])
         steps = np.diff(path[:, :2], axis=0)
         if self.check:
             _check_energy(body, moments, lengths)
@@ -63,10 +63,10 @@ class Recorder:
             for attention in agent.attentions:
                 check_log(attention)
                 check_clock([a.cycle for a in attention.log], [a.period for a in attention.log], n)
-        wanting = _held(agent.attentions[0], n, [a.wanting for a in agent.attentions[0].log])
+        wanting = held(agent.attentions[0], n, [a.wanting for a in agent.attentions[0].log])
         added: dict[str, dict[str, Any]] = {"episodes": {}, "behaviours": {}, "cycles": {}}
         if self.probes or self.observers:
-            lived = _lived(agent, phase, episode, death, path, energy, wanting, safety, needs)
+            lived = _lived(agent, phase, episode, death, path, energy, wanting, safe, safe_held, needs)
             for probe in self.probes:
                 added[probe.table] |= probe.checked(lived)
             self.observers.episode(lived)
@@ -75,41 +75,38 @@ class Recorder:
         self._add("episodes", **self.run_columns, phase=phase, episode=episode, cycles=n,
                   survival=n / agent.max_cycles, death=death or "none", active_cycles=len(lengths),
                   meals=_meals(body, "hunger"), drinks=_meals(body, "thirst"),
-                  safety_mean=None if safety is None else float(safety.mean()),
-                  safety_min=None if safety is None else float(safety.min()),
-                  safety_max=None if safety is None else float(safety.max()),
+                  **_of("safety", safe), **_of("safety_held", safe_held),
                   energy_mean=float(energy.mean()), energy_min=float(energy.min()), energy_max=float(energy.max()),
                   **{"hunger_mean": None, "hunger_max": None, "thirst_mean": None, "thirst_max": None, **means},
                   wanting_mean=float(wanting.mean()), path_m=float(np.hypot(steps[:, 0], steps[:, 1]).sum()),
-                  **self.swept, **added["episodes"])
+                  turn_rad=turning(path), **bouts(_meal_times(body, needs)), **self.swept, **added["episodes"])
         for attention, penalty in zip(agent.attentions, penalties, strict=True):
             mine = {name: values[attention.behaviour.name] for name, values in added["behaviours"].items()}
             self._behaviour(attention, phase, episode, penalty, mine)
         self._cover(phase, path[1:])
         if full:
-            self._cycles(agent, phase, episode, path[1:], needs, energy, wanting, safety, added["cycles"])
+            self._cycles(agent, phase, episode, path[1:], needs, energy, wanting,
+                         {"safety": safe, "safety_held": safe_held}, added["cycles"])
 
-    def _safety(self, agent: Agent, n: int) -> Values | None:
-        """Eq (13) in every cycle, from what AVOID last perceived; None if nobody answers for crashes."""
-        guard = next((a for a in agent.attentions if "crash" in a.behaviour.charges), None)
+    def _safety(self, agent: Agent, path: Values) -> tuple[Values | None, Values | None]:
+        """Eq (13) in every cycle: from the true distance, and from what AVOID last perceived; None if nobody answers
+        for crashes."""
+        guard, n = guard_of(agent.attentions), len(path)
         if guard is None:
-            return None
-        shortest, longest = min(guard.periods), max(guard.periods)
-        if longest == shortest:
-            return None
-        values = [safety_at(a.sigma, guard.behaviour.sigma_high, a.period, shortest, longest) for a in guard.log]
-        safety = _held(guard, n, values)
+            return None, None
+        both = safety(guard, distances(path, self.layout)), safety_held(guard, n)
         if self.check:
-            check_safety(float(safety.mean()), n, len(guard.log), longest, shortest)
-        return safety
+            for values in both:
+                check_safety(float(values.mean()), n, len(guard.log), max(guard.periods), min(guard.periods))
+        return both
 
     def _behaviour(self, attention: Attention, phase: str, episode: int, penalty: float, added: dict[str, Any]) -> None:
         log = attention.log
         paid = [a for a in log if a.reward is not None]
         self._add("behaviours", **self.run_columns, phase=phase, episode=episode, behaviour=attention.behaviour.name,
                   activations=len(log), releases=sum(a.released for a in log),
-                  reward=sum(a.reward or 0.0 for a in paid) + penalty,
-                  reward_extrinsic=sum(a.extrinsic or 0.0 for a in paid) + penalty, penalty=penalty,
+                  reward=sum((a.reward or 0.0 for a in paid), 0.0),
+                  reward_extrinsic=sum((a.extrinsic or 0.0 for a in paid), 0.0), penalty=penalty,
                   liking_mean=sum(a.liking for a in log) / len(log), period_mean=sum(a.period for a in log) / len(log),
                   **self.swept, **added)
 
@@ -121,7 +118,7 @@ class Recorder:
         self._visits[phase] = self._visits.get(phase, 0) + visits
 
     def _cycles(self, agent: Agent, phase: str, episode: int, path: Values, needs: dict[str, Values], energy: Values,
-                wanting: Values, safety: Values | None, added: dict[str, Any]) -> None:
+                wanting: Values, safeties: dict[str, Values | None], added: dict[str, Any]) -> None:
         n, dt = len(path), agent.simulator.dt_s
         before = agent.simulator.trace[:n]
         turn = (path[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
@@ -130,17 +127,18 @@ class Recorder:
                 "cycle": range(n), "x_m": path[:, 0], "y_m": path[:, 1], "heading_rad": path[:, 2],
                 "v_m_s": np.hypot(path[:, 0] - before[:, 0], path[:, 1] - before[:, 1]) / dt, "w_rad_s": turn / dt,
                 "hunger": needs.get("hunger", [None] * n), "thirst": needs.get("thirst", [None] * n),
-                "energy": energy, "wanting": wanting, "safety": [None] * n if safety is None else safety}
+                "energy": energy, "wanting": wanting,
+                **{name: [None] * n if values is None else values for name, values in safeties.items()}}
         rows.update({name: values for name, values in needs.items() if name not in rows})
         for attention in agent.attentions:
             name, log = attention.behaviour.name, attention.log
             active = np.zeros(n, bool)
             active[[a.cycle for a in log]] = True
             rows[f"{name}_active"] = active
-            rows[f"{name}_period"] = _held(attention, n, [a.period for a in log])
-            rows[f"{name}_percept"] = _held(attention, n, [a.percept + 1 for a in log])
+            rows[f"{name}_period"] = held(attention, n, [a.period for a in log])
+            rows[f"{name}_percept"] = held(attention, n, [a.percept + 1 for a in log])
             levels = attention.curiosity.levels
-            rows[f"{name}_level"] = [levels[i] for i in _held(attention, n, [a.level for a in log])]
+            rows[f"{name}_level"] = [levels[i] for i in held(attention, n, [a.level for a in log])]
         rows |= added
         for name, values in rows.items():
             columns[name].extend(values.tolist() if isinstance(values, np.ndarray) else values)
@@ -164,7 +162,7 @@ class Recorder:
 
 
 def _lived(agent: Agent, phase: str, episode: int, death: str | None, path: Values, energy: Values, wanting: Values,
-           safety: Values | None, needs: Mapping[str, Values]) -> Lived:
+           safety: Values | None, safety_held: Values | None, needs: Mapping[str, Values]) -> Lived:
     """The episode as those see it who only look: arrays that cannot be written to."""
     def fixed(values: Values) -> Values:
         view = values.view()
@@ -172,12 +170,15 @@ def _lived(agent: Agent, phase: str, episode: int, death: str | None, path: Valu
         return view
     return Lived(phase, episode, agent.simulator.cycle, agent.max_cycles, death, fixed(path), fixed(energy),
                  fixed(wanting), None if safety is None else fixed(safety),
+                 None if safety_held is None else fixed(safety_held),
                  {name: fixed(values) for name, values in needs.items()},
                  {a.behaviour.name: tuple(a.log) for a in agent.attentions})
 
 
 def _check_energy(body: Body, moments: Values, lengths: Values) -> None:
-    """The balance of energy and needs, unless one of them grows by itself."""
+    """The balance of energy and needs, unless one of them grows by itself or is cut."""
+    if body.reading.energy_clipped or body.reading.needs_floored:
+        return
     feeding = [i for i, need in enumerate(body.needs) if need.feeds_energy]
     if not any(body.needs[i].per_cycle for i in feeding):
         balance = moments[:, 2] + moments[:, [3 + i for i in feeding]].sum(axis=1)
@@ -185,9 +186,16 @@ def _check_energy(body: Body, moments: Values, lengths: Values) -> None:
         check_balance(balance, body.e_u, body.e_nb, growth, moments[1:, 1], lengths)
 
 
-def _held(attention: Attention, n: int, values: Sequence[Any]) -> Values:
-    """What was set at each activation, in every cycle until the next one."""
-    return np.repeat(values, np.diff([a.cycle for a in attention.log], append=n))
+def _of(name: str, values: Values | None) -> dict[str, float | None]:
+    """Mean, smallest and largest of a series, as columns."""
+    return {f"{name}_{what}": None if values is None else float(getattr(values, what)())
+            for what in ("mean", "min", "max")}
+
+
+def _meal_times(body: Body, needs: Mapping[str, Values]) -> dict[str, list[int]]:
+    """When each need that food or water satisfies fell (cycles), from its values after each cycle."""
+    return {need.name: np.flatnonzero(np.diff(needs[need.name], prepend=need.start) < 0).tolist()
+            for need in body.needs if need.feeds_energy}
 
 
 def _meals(body: Body, need: str) -> int | None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2  # 1: rewards with penalties, safety as held
+OLDEST_SCHEMA = 1  # that can still be read
 TABLES = ("episodes", "behaviours", "policy", "cycles", "coverage")
 CELL_M = 0.1
 
@@ -36,9 +37,12 @@ SCHEMA: dict[str, dict[str, Column]] = {
         "active_cycles": Column("int32", "mc", "cycles with at least one activation"),
         "meals": Column("int32", "1", "times that hunger was satisfied"),
         "drinks": Column("int32", "1", "times that thirst was satisfied"),
-        "safety_mean": Column("float64", "1", "eq 13 in every cycle from what AVOID last perceived: mean"),
+        "safety_mean": Column("float64", "1", "eq 13 in every cycle from where the robot is: mean"),
         "safety_min": Column("float64", "1", "the same: smallest"),
         "safety_max": Column("float64", "1", "the same: largest"),
+        "safety_held_mean": Column("float64", "1", "eq 13 in every cycle from what AVOID last perceived: mean"),
+        "safety_held_min": Column("float64", "1", "the same: smallest"),
+        "safety_held_max": Column("float64", "1", "the same: largest"),
         "energy_mean": Column("float64", "UoE", "eq 10 over the cycles: mean"),
         "energy_min": Column("float64", "UoE", "the same: smallest"),
         "energy_max": Column("float64", "UoE", "the same: largest"),
@@ -48,15 +52,20 @@ SCHEMA: dict[str, dict[str, Column]] = {
         "thirst_max": Column("float64", "UoE", "the same: largest"),
         "wanting_mean": Column("float64", "1", "wanting, as last computed by the first behaviour: mean"),
         "path_m": Column("float64", "m", "length of the path"),
+        "turn_rad": Column("float64", "rad", "sum of the absolute turns"),
+        "bouts": Column("int32", "1", "runs of meals or drinks of one kind less than 60 cycles apart"),
+        "bout_switches": Column("int32", "1", "bouts that followed one of the other kind"),
+        "bout_interval_mean": Column("float64", "mc", "from the start of a bout to that of the next: mean"),
+        "bout_interval_sd": Column("float64", "mc", "the same: standard deviation; empty under 3 bouts"),
     },
     "behaviours": {
         **EPISODE,
         "behaviour": Column("string", "", "whose row this is"),
         "activations": Column("int32", "1", "looks"),
         "releases": Column("int32", "1", "looks at which its motor schema was on"),
-        "reward": Column("float64", "UoR", "sum over the periods that ended, eq 4, with the penalty"),
+        "reward": Column("float64", "UoR", "sum over the periods that ended, eq 4, without the penalty"),
         "reward_extrinsic": Column("float64", "UoR", "the same without the intrinsic part"),
-        "penalty": Column("float64", "UoR", "part of both for a death"),
+        "penalty": Column("float64", "UoR", "for a death; in neither of both"),
         "liking_mean": Column("float64", "1", "mean over the looks"),
         "period_mean": Column("float64", "mc", "mean of the periods granted"),
     },
@@ -84,7 +93,8 @@ SCHEMA: dict[str, dict[str, Column]] = {
         "thirst": Column("float64", "UoE", "after the cycle; empty without that need"),
         "energy": Column("float64", "UoE", "after the cycle"),
         "wanting": Column("float64", "1", "as last computed by the first behaviour"),
-        "safety": Column("float64", "1", "eq 13 from what AVOID last perceived"),
+        "safety": Column("float64", "1", "eq 13 from where the robot is"),
+        "safety_held": Column("float64", "1", "eq 13 from what AVOID last perceived"),
     },
     "coverage": {
         "run": RUN["run"],

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from attnlab.testing import make
 from tests.behaviours.senses import Told, echoes
 
-EXACT = {"active_margin_m": 0.25, "blocked_margin_m": 0.125, "how": {"stop_distance_m": 0.25}}  # 0.5 m and 0.375 m
+EXACT = {"active_margin_m": 0.15, "blocked_margin_m": 0.025}  # 0.5 m and 0.375 m
 DISTANCES = st.lists(st.floats(0.0, 5.0), min_size=8, max_size=8)
 
 
@@ -47,9 +47,15 @@ def test_turns_of_all_active_sonars_add_up():
 
 
 def test_where_a_sonar_gets_active_and_the_way_blocked():
-    """With 0.25 m to stop: active below 0.5 m, blocked below 0.375 m, neither of them at it."""
+    """Danger begins at 0.35 m: active below 0.5 m, blocked below 0.375 m, neither of them at it, and wherever it stops
+    and however fast it goes."""
+    for how in ({}, {"stop_distance_m": 0.1}, {"speed_law": "proportional"}):
+        where_it_turns(how)
+
+
+def where_it_turns(how):
     def turn(**at):
-        return command(echoes(**at), make("behaviours", "avoid", **EXACT))[1]
+        return command(echoes(**at), make("behaviours", "avoid", how=how, **EXACT))[1]
     assert turn(s6=0.5) == 0.0 and turn(s6=0.499) == pytest.approx(0.4)
     assert turn(s5=0.375) == pytest.approx(0.64) and turn(s5=0.374) == 1.5
 
@@ -89,10 +95,35 @@ def test_percept_is_the_nearest_echo_within_its_domain():
         assert cut.percept(Told(echoes(s1=nearest, s2=2.0))) == within
 
 
-def test_reward_is_eq_7_over_its_domain():
-    assert make("behaviours", "avoid").reward(0.7, 3 / 11) == pytest.approx(0.5 * (3 / 11 + 0.7))
-    cut = make("behaviours", "avoid", how={"percept_domain": "min_to_max"})
-    assert cut.reward(0.7, 3 / 11) == pytest.approx(0.5 * (3 / 11 + 0.5))
+@pytest.mark.parametrize("domain", ["zero_to_max", "min_to_max"])
+def test_reward_is_eq_7_whatever_the_percepts_domain(domain):
+    """sigma_min is Table 4's 0.4 m: 0.7 m is half of the way to 1 m, and nearer than 0.4 m the term is 0."""
+    avoid = make("behaviours", "avoid", how={"percept_domain": domain})
+    assert avoid.reward(0.7, 3 / 11) == pytest.approx(0.5 * (3 / 11 + 0.5))
+    assert [avoid.reward(sigma, 0.0) for sigma in (0.4, 0.3, 0.0)] == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+    assert avoid.reward(1.0, 1.0) == 1.0
+    to_the_wall = make("behaviours", "avoid", how={"percept_domain": domain, "reward_sigma_min_m": 0.0})
+    assert to_the_wall.reward(0.3, 3 / 11) == pytest.approx(0.5 * (3 / 11 + 0.3))
+
+
+def test_a_robot_is_paid_for_what_it_perceives():
+    """Through the behaviour: an echo at 0.55 m, a quarter of the way from 0.4 to 1 m."""
+    avoid = make("behaviours", "avoid")
+    assert avoid.reward(avoid.percept(Told(echoes(s3=0.55))), 0.0) == pytest.approx(0.125)
+
+
+def test_the_papers_speed_law():
+    """v = v_max sigma / sigma_max: half of it at 0.5 m, none only at the wall."""
+    avoid = make("behaviours", "avoid", how={"speed_law": "proportional"})
+    assert [command(echoes(s0=d), avoid)[0] for d in (0.0, 0.3, 0.5, 1.0, 4.0)] == pytest.approx([0, 0.12, 0.2, 0.4, 0.4])
+
+
+def test_the_turn_rule_of_the_paper_forgets_its_side():
+    """Blocked on the left it turns right; blocked on both sides alike, ours goes on to the right, the sum is 0."""
+    for rule, then in (("keeps_side", -1.5), ("sum", 0.0)):
+        avoid = make("behaviours", "avoid", how={"turn_rule": rule})
+        assert command(echoes(s3=0.5), avoid)[1] < 0
+        assert command(echoes(s3=0.5, s4=0.5), avoid)[1] == pytest.approx(then)
 
 
 @given(DISTANCES, st.integers(0, 7), st.floats(0.0, 1.0))

@@ -33,7 +33,7 @@ def test_limits_are_the_robots():
 
 def test_where_avoid_stops():
     """0.35 m; 0.2 m more than the safety distance if that kills; its own distance if it has one, even 0."""
-    assert reading().stop_m == 0.35
+    assert reading().stop_m == reading(stop_distance_m=0.1).danger_m == 0.35
     assert reading(crash="safety_distance").stop_m == pytest.approx(0.6)
     assert reading(crash="safety_distance", safety_distance_m=0.5).stop_m == pytest.approx(0.7)
     for crash in ("contact", "safety_distance"):

@@ -22,6 +22,7 @@ class Clock:
     def activate(self, now, exploration, learning):
         assert now.cycle == self.due
         self.due += self.period
+        return 1
 
     def died(self, share, learning):
         self.deaths.append((share, learning))

@@ -38,9 +38,10 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
             shift = safety * (curiosity == "litman")
             add("episodes", **key, cycles=cycles, survival=min(1.0, 0.9 + 0.1 * rng.random()), death="none",
                 active_cycles=40, meals=1, drinks=1, safety_mean=0.3 + shift + 0.01 * rng.random(), safety_min=0.1,
-                safety_max=0.9, energy_mean=4000 + 9 * rng.random(), energy_min=3500.0, energy_max=4600.0,
+                safety_max=0.9, safety_held_mean=0.3, safety_held_min=0.1, safety_held_max=0.9, energy_mean=4000 + 9 * rng.random(), energy_min=3500.0, energy_max=4600.0,
                 hunger_mean=400 + rng.random(), hunger_max=600.0, thirst_mean=410 + rng.random(), thirst_max=610.0,
-                wanting_mean=0.5, path_m=20.0, **swept)
+                wanting_mean=0.5, path_m=20.0, turn_rad=30.0, bouts=4, bout_switches=2,
+                bout_interval_mean=250.0, bout_interval_sd=40.0, **swept)
             for behaviour in BEHAVIOURS:
                 add("behaviours", **key, behaviour=behaviour, activations=int(rng.integers(18, 24)), releases=3,
                     reward=50 + rng.random(), reward_extrinsic=51.0, penalty=0.0, liking_mean=0.5, period_mean=8.0,
@@ -58,7 +59,7 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
         row = {"run": name, "phase": "validation", "episode": validation - 1, "cycle": cycle,
                "x_m": 2 + np.cos(cycle / 20 + seed), "y_m": 2 + np.sin(cycle / 20 + seed), "heading_rad": 0.0,
                "v_m_s": 0.3, "w_rad_s": 0.1, "hunger": 300.0 + cycle % 60, "thirst": 300.0 + (cycle + 30) % 60,
-               "energy": 4600.0 - cycle, "wanting": 0.5, "safety": 0.4}
+               "energy": 4600.0 - cycle, "wanting": 0.5, "safety": 0.4, "safety_held": 0.4}
         for offset, behaviour in enumerate(BEHAVIOURS):
             row |= {f"{behaviour}_active": (cycle + offset) % 6 == 0, f"{behaviour}_period": 12 if cycle % 2 else 1,
                     f"{behaviour}_percept": 3, f"{behaviour}_level": levels[0]}

@@ -132,7 +132,7 @@ def test_any_swept_setting_and_missing_runs(tmp_path):
     about.write_text(about.read_text().replace('"complete"', '"failed"').replace('"error": null',
                                                                                 '"error": "Boom: it <broke>"'))
     old = (study / "none-0.5-seed1" / "run.json")
-    old.write_text(old.read_text().replace('"schema": 1', '"schema": 0'))
+    old.write_text(old.read_text().replace('"schema": 2', '"schema": 0'))
     page = words(study, "survival", "rewards", "needs", "policies", "paths")
     assert "failed: none-0.9-seed0 (Boom: it &lt;broke&gt;)" in page
     assert "litman-0.9-seed1 (cycles.parquet" in page

@@ -40,7 +40,7 @@ def test_clearances_are_those_of_each_point(solids, points):
 def lived(path, **more):
     n = len(path) - 1
     zeros = np.zeros(n)
-    return Lived("train", 0, n, n, None, np.array(path, float), zeros, zeros, None, {}, more)
+    return Lived("train", 0, n, n, None, np.array(path, float), zeros, zeros, None, None, {}, more)
 
 
 def test_clearance_by_hand():
