@@ -80,8 +80,8 @@ class Reading:
     stop_distance_m: float | None = setting(
         None, "where AVOID stops with speed_law=stopping; left out: danger_m", unit="m", low=0)
     turn_rule: Literal["keeps_side", "sum"] = setting(
-        "keeps_side", "AVOID's turn: the sum over active sonars, but once blocked it keeps to the side it chose (ours), "
-        "or the sum alone (the paper's)")
+        "keeps_side", "AVOID's turn: the sum over active sonars, but once blocked it keeps to the side it chose "
+        "(ours), or the sum alone (the paper's)")
     food_reach_m: float = setting(0.75, "a source is consumed when its blob looks nearer than this to the centre; "
                                   "ours, the paper has none", unit="m", above=0)
     meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind; ours, the paper has none: 1",

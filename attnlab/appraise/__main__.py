@@ -37,7 +37,7 @@ def main(argv: Sequence[str]) -> int:
     experiment = RunPlan(config)
     reading, behaviours = experiment.reading, list(config["behaviours"])
     views = list(recorded(cycles, behaviours, reading.energy_start,
-                          experiment.start_pose(cycles["phase"].iat[0], int(cycles["episode"].iat[0]))))
+                          experiment.start_pose(str(cycles["phase"].iat[0]), int(cycles["episode"].to_numpy()[0]))))
     standard, told = probes(reading.percept_bins, reading.energy_max), {}
     with experiment.simulator() as simulator:
         for name in names:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attnlab.tables.files import write_bytes
 
@@ -38,7 +38,8 @@ def summary(table: pd.DataFrame, probed: Mapping[str, pd.DataFrame], names: Sequ
 
 def markdown(frame: pd.DataFrame) -> str:
     """A frame of numbers as a Markdown table."""
-    head = [frame.index.name or "", *map(str, frame.columns)]
+    name = frame.index.name
+    head = ["" if name is None else str(name), *map(str, frame.columns)]
     lines = ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head)]
     for name, row in frame.iterrows():
         cells = ["" if value != value else f"{value:.2f}" for value in row]
@@ -74,7 +75,8 @@ def draw(table: pd.DataFrame, probed: Mapping[str, pd.DataFrame], names: Sequenc
         first = table["behaviour"].iloc[0]
         columns = {f"run: {first}": table[table["behaviour"] == first], **probed}
         figure = plt.figure(figsize=(12.0, 0.62 * len(names) + 7.0))
-        upper, lower = figure.subfigures(2, 1, height_ratios=[0.62 * len(names) + 1.0, 6.0])
+        halves: Any = figure.subfigures(2, 1, height_ratios=[0.62 * len(names) + 1.0, 6.0])
+        upper, lower = halves
         axes = upper.subplots(len(names), len(columns), sharey=True, sharex="col", squeeze=False)
         for i, name in enumerate(names):
             for j, (title, frame) in enumerate(columns.items()):

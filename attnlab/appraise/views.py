@@ -34,7 +34,7 @@ class Replayed:
     """The senses of a robot that is shown what it saw; sonars are read in the run's world at the recorded pose."""
 
     def __init__(self, simulator: Any = None):
-        self.simulator, self.view, self.cycle = simulator, None, 0
+        self.simulator, self.cycle = simulator, 0
 
     def show(self, view: View) -> None:
         self.view, self.cycle = view, view.cycle
@@ -43,7 +43,7 @@ class Replayed:
         from attnlab.simulators.robot import centre_distances
         if self.view.ring is not None:
             return list(self.view.ring)
-        if self.simulator is None:
+        if self.simulator is None or self.view.pose is None:
             raise ConfigError("curiosity", "this model reads sonars, and these views hold none")
         self.simulator.place(*self.view.pose)
         return centre_distances(self.simulator.sonar())
@@ -66,7 +66,8 @@ def appraise(views: Sequence[View], names: Sequence[str], reading: Reading, simu
     rows = []
     for name in names:
         now = Replayed(simulator)
-        curiosity, memories = model(name, reading, now), {}
+        memories: dict[str, Any] = {}
+        curiosity = model(name, reading, now)
         for view in views:
             now.show(view)
             memory = memories.setdefault(view.behaviour, curiosity.memory())
@@ -87,7 +88,7 @@ def recorded(cycles: pd.DataFrame, behaviours: Sequence[str], energy_start: floa
     for i, cycle in enumerate(cycles["cycle"].tolist()):
         for name in behaviours:
             if cycles[f"{name}_active"].iat[i]:
-                yield View(name, cycle, int(cycles[f"{name}_percept"].iat[i]) - 1, energies[i], poses[i])
+                yield View(name, cycle, int(cycles[f"{name}_percept"].to_numpy()[i]) - 1, energies[i], poses[i])
 
 
 def probes(bins: int, energy: float) -> dict[str, list[View]]:

@@ -17,9 +17,9 @@ class Avoid(Behaviour):
 
     sigma is the minimum of the 8 frontal sonars (m, from the centre). Speed falls linearly with it
     (``reading.speed_law``); the turn is the sum over the active sonars of theta_max times a weight, high for frontal
-    sonars and low for lateral ones, away from the side of the echo. In a corner the two sides cancel and the robot would
-    turn to and fro: once blocked, it keeps to the side it chose until its way is free (``reading.turn_rule``). Draws
-    nothing at random.
+    sonars and low for lateral ones, away from the side of the echo. In a corner the two sides cancel and the robot
+    would turn to and fro: once blocked, it keeps to the side it chose until its way is free (``reading.turn_rule``).
+    Draws nothing at random.
     """
     charges = ("crash",)
 

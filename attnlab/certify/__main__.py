@@ -11,7 +11,9 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -58,7 +60,7 @@ def _count(text: str) -> int:
     return int(text)
 
 
-def _progress(poses: int, episodes: int):
+def _progress(poses: int, episodes: int) -> AbstractContextManager[list[Callable[[], None]]]:
     """A context manager with a bar for poses and one for episodes: the two functions that advance them."""
     from contextlib import contextmanager
 
@@ -73,11 +75,11 @@ def _progress(poses: int, episodes: int):
     )
 
     @contextmanager
-    def bars():
+    def bars() -> Iterator[list[Callable[[], None]]]:
         with Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
                       TextColumn("left"), TimeRemainingColumn(), console=Console(stderr=True)) as progress:
             tasks = [progress.add_task(name, total=total) for name, total in (("poses", poses), ("episodes", episodes))]
-            yield [lambda task=task: progress.advance(task) for task in tasks]
+            yield [partial(progress.advance, task) for task in tasks]
     return bars()
 
 

@@ -22,7 +22,7 @@ PAIR = ("planar", "pybullet")
 
 
 @contextmanager
-def quiet(poses: int, episodes: int) -> Iterator[list[Tick]]:
+def quiet(_poses: int, _episodes: int) -> Iterator[list[Tick]]:
     """Counts nothing."""
     yield [lambda: None, lambda: None]
 
@@ -60,7 +60,7 @@ def certify(worlds: Sequence[str], poses: int, episodes: int, seeds: int, overri
             "machine": platform.machine(), "verdict": verdict, "worlds": measures}
 
 
-def _poses(world: str, poses: int, overrides: Sequence[str], tick) -> dict[str, Any]:
+def _poses(world: str, poses: int, overrides: Sequence[str], tick: Tick) -> dict[str, Any]:
     from attnlab.certify.poses import compare_drives, compare_poses
     from attnlab.robot.plan import RunPlan
     from attnlab.streams import stream
@@ -71,14 +71,15 @@ def _poses(world: str, poses: int, overrides: Sequence[str], tick) -> dict[str, 
     return {**found, "rays_grazing_share": found["rays_grazing"] / max(1, found["rays"])}
 
 
-def _loops(world: str, episodes: int, seeds: range, overrides: Sequence[str], wheels: bool, tick) -> dict[str, Any]:
+def _loops(world: str, episodes: int, seeds: range, overrides: Sequence[str], wheels: bool, tick: Tick
+           ) -> dict[str, Any]:
     """Runs that stay in their simulator, and the same ones validated in the other (and on wheels)."""
     import numpy as np
 
     from attnlab.certify.episodes import counts, divergence, exchangeable, run, survival, total_variation
     kept: dict[str, list[float]] = {}
-    totals: dict[str, dict[str, Counter]] = {name: {} for name in PAIR}
-    by_seed: dict[str, list[dict[str, Counter]]] = {name: [] for name in PAIR}
+    totals: dict[str, dict[str, Counter[Any]]] = {name: {} for name in PAIR}
+    by_seed: dict[str, list[dict[str, Counter[Any]]]] = {name: [] for name in PAIR}
     pairs = []
     for seed in seeds:
         stayed = {}

@@ -13,7 +13,8 @@ import numpy as np
 from attnlab.robot.episodes import play_run
 from attnlab.robot.plan import RunPlan
 
-Tables = dict[str, dict[str, list]]
+Tables = dict[str, dict[str, list[Any]]]
+Counts = Counter[Any]  # of bins
 DIVERGED_M = 0.001
 MOST_SPLITS = 2000
 
@@ -53,7 +54,7 @@ def _paths(tables: Tables) -> Iterable[tuple[np.ndarray, int]]:
         start += n
 
 
-def counts(tables: Tables, behaviours: Iterable[str]) -> dict[str, Counter]:
+def counts(tables: Tables, behaviours: Iterable[str]) -> dict[str, Counts]:
     """How often each percept and each period came up at an activation, and each cause of death, over all episodes."""
     cycles, found = tables["cycles"], {"deaths": Counter(tables["episodes"]["death"])}
     for what in ("percept", "period"):
@@ -63,7 +64,7 @@ def counts(tables: Tables, behaviours: Iterable[str]) -> dict[str, Counter]:
     return found
 
 
-def exchangeable(one: list[dict[str, Counter]], two: list[dict[str, Counter]]) -> float:
+def exchangeable(one: list[dict[str, Counts]], two: list[dict[str, Counts]]) -> float:
     """p of the hypothesis that the runs in ``one`` and ``two`` (distributions by name) come from the same simulator.
 
     A permutation test over all ways to part the runs in two halves (2,000 drawn ones if there are more), its statistic
@@ -72,7 +73,7 @@ def exchangeable(one: list[dict[str, Counter]], two: list[dict[str, Counter]]) -
     runs, half = [*one, *two], len(one)
     if half < 2:
         return 1.0
-    apart = sum(np.array([[total_variation(a[key], b[key]) for b in runs] for a in runs]) for key in runs[0])
+    apart = np.sum([[[total_variation(a[key], b[key]) for b in runs] for a in runs] for key in runs[0]], axis=0)
     n = len(runs)
 
     def statistic(chosen: Iterable[int]) -> float:
@@ -89,7 +90,7 @@ def exchangeable(one: list[dict[str, Counter]], two: list[dict[str, Counter]]) -
     return (1 + sum(statistic(split) >= seen - 1e-12 for split in splits)) / (1 + len(splits))
 
 
-def total_variation(one: Counter, two: Counter) -> float:
+def total_variation(one: Counts, two: Counts) -> float:
     """Half the sum of absolute differences of two distributions: 0 the same, 1 nothing in common."""
     n, m = sum(one.values()), sum(two.values())
     if not n or not m:

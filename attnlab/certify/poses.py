@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import cos, pi, sin
 from random import Random
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from attnlab.worlds.geometry import clearance
 GRAZE_M = 0.001  # a beam that passes an edge nearer than this may hit or miss it by rounding
 
 
-def compare_poses(one: Simulator, two: Simulator, count: int, draw: Random, tick: Callable[[], None]) -> dict:
+def compare_poses(one: Simulator, two: Simulator, count: int, draw: Random, tick: Callable[[], None]
+                  ) -> dict[str, Any]:
     """Errors of ``two`` against ``one`` over ``count`` poses, uniform over the floor and all headings.
 
     Contact is compared at every pose, sensors where there is none. Lengths in m, bearing and height in px.
@@ -44,17 +46,18 @@ def compare_poses(one: Simulator, two: Simulator, count: int, draw: Random, tick
             bearing.append(abs(one.camera.column(a.bearing_rad) - two.camera.column(b.bearing_rad)))
             height.append(abs(a.height_px - b.height_px))
             area.append(abs(a.area_px - b.area_px))
-    ranges, grazes = np.array(ranges).reshape(-1), np.array(grazes, bool).reshape(-1)
+    off, grazing = np.array(ranges).reshape(-1), np.array(grazes, bool).reshape(-1)
     return {
-        "poses": count, "poses_sensed": compared, "rays": len(ranges), "rays_grazing": int(grazes.sum()),
-        **_spread("sonar_m", ranges[~grazes]), **_spread("sonar_all_m", ranges),
+        "poses": count, "poses_sensed": compared, "rays": len(off), "rays_grazing": int(grazing.sum()),
+        **_spread("sonar_m", off[~grazing]), **_spread("sonar_all_m", off),
         "blobs": blobs, "blob_miss_share": missed / blobs if blobs else 0.0, "columns": columns,
         **_spread("bearing_px", bearing), **_spread("height_px", height), **_spread("area_px", area),
         "contact_disagreement_share": contacts / count, "contact_depth_max_m": deepest,
     }
 
 
-def compare_drives(one: Simulator, two: Simulator, count: int, draw: Random, tick: Callable[[], None]) -> dict:
+def compare_drives(one: Simulator, two: Simulator, count: int, draw: Random, tick: Callable[[], None]
+                  ) -> dict[str, Any]:
     """The same random commands in both from the same start until either crashes: gap of position (m), heading (rad)."""
     gaps, turns, ends = [], [], 0
     for _ in range(count):
@@ -98,7 +101,7 @@ def _grazing(pose: tuple[float, float, float], edges: np.ndarray, reach: float) 
     return grazing
 
 
-def _spread(name: str, values) -> dict[str, float]:
+def _spread(name: str, values: Sequence[float] | np.ndarray) -> dict[str, float]:
     """Median, 99 % and maximum; 0 without values."""
     values = np.asarray(values, float)
     if not len(values):

@@ -46,7 +46,7 @@ def judge(worlds: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
         values = {world: abs(measures[tolerance.measure]) for world, measures in worlds.items()
                   if tolerance.measure in measures}
         if values:
-            where = max(values, key=values.get)
+            where = max(values, key=lambda name: values[name])
             rows.append({**tolerance._asdict(), "worst": values[where], "world": where,
                          "passes": values[where] <= tolerance.limit})
     return rows

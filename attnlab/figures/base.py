@@ -77,7 +77,7 @@ def gallery() -> list[str]:
     from attnlab.registry import parts
     load_all()
     specs = [spec for spec in parts.values() if spec.group == "figure"]
-    return [spec.name for spec in sorted(specs, key=lambda spec: (spec.cls.order, spec.name))]
+    return [spec.name for spec in sorted(specs, key=lambda spec: (getattr(spec.cls, "order", 0.0), spec.name))]
 
 
 def make(name: str, context: FigureContext) -> Figure:

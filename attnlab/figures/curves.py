@@ -54,12 +54,14 @@ def rows_of_panels(conditions: Conditions) -> tuple[list[Panel], str]:
 def finish(figure: Figure, axes: list[Axes], conditions: Conditions, name: str, block: int, unit: str,
            note: str) -> None:
     """Labels, legend and heading of a figure along training episodes."""
+    from matplotlib.ticker import MaxNLocator
     figure.supylabel(unit, fontsize=9.5)
     for ax in axes:
-        if ax.get_subplotspec().is_last_row():  # not the figure's own label: a legend below would lie upon it
+        place = ax.get_subplotspec()
+        if place is not None and place.is_last_row():  # not the figure's own label: a legend below would lie upon it
             ax.set_xlabel(f"training episodes (means of {block})" if block > 1 else "training episodes")
         if ax.lines:  # an empty panel has no ticks to speak of
-            ax.xaxis.get_major_locator().set_params(integer=True)
+            ax.xaxis.set_major_locator(MaxNLocator(integer=True, nbins="auto", steps=[1, 2, 2.5, 5, 10]))
     legend(figure, axes, title_of_lines(conditions))
     under = f"{seeds_note(conditions)}\n{note}" if note else seeds_note(conditions)
     figure.suptitle(f"{name}\n{under}", x=0.01, ha="left", fontsize=9.5)

@@ -18,6 +18,8 @@ from attnlab.registry import register
 from attnlab.stats import bootstrap_interval
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
+
     from attnlab.results.conditions import Conditions
 
 MARKERS = "osD^vPX*<>ph"
@@ -40,7 +42,7 @@ class Economics(Figure):
     title, order = "Attention economics", 140
     how = "Large marks are means with 95 % intervals, small ones seeds; grey: baselines, if given."
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         import matplotlib.pyplot as plt
         drawn, (needs, unit) = points(conditions, self.context.baselines, MOST), common_needs(conditions)
         lines_of_legend = -(-len(drawn) // 4)
@@ -70,7 +72,7 @@ class Economics(Figure):
             figure.legend(handles, names, loc="outside upper left", ncol=min(4, len(handles)), handletextpad=0.3)
         return figure
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         parts = [f"{p.name} {np.mean(p.cost):.0f} activations in 100 cycles for "
                  f"{np.nanmean(p.outcomes['survival']):.1f} % survival"
                  for p in points(conditions, self.context.baselines, SAID)]

@@ -12,8 +12,10 @@ from attnlab.registry import register
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
 
     from attnlab.figures.panels import Panel
+    from attnlab.results.conditions import Conditions
 
 
 @register("figure", "energy")
@@ -21,10 +23,10 @@ class Energy(Figure):
     """Mean energy of an episode along training, and E_well."""
     title, order, place = "energy", 100, "Fig 10"
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         return one_curve(conditions, "Energy", "energy_mean", 10, "mean energy of an episode, UoE", over=_well)
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         return start_and_end(conditions, "energy_mean", " UoE", block=10, digits=0)
 
 

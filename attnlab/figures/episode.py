@@ -10,6 +10,8 @@ from attnlab.figures.panels import Line, panels
 from attnlab.figures.style import cut, own_colours
 from attnlab.measures.needs import units_of
 
+Shade = tuple[float, float, float, float]
+
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
@@ -56,8 +58,8 @@ def label_of_needs(conditions: Conditions) -> str:
     return f"need, {units.pop()}" if len(units) == 1 else "need"
 
 
-def period_colours(periods: list[int]) -> dict[int, tuple]:
+def period_colours(periods: list[int]) -> dict[int, Shade]:
     """A shade for each period."""
     import matplotlib
     shades = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.88, max(2, len(periods))))
-    return {period: tuple(shade) for period, shade in zip(periods, shades, strict=False)}
+    return {period: (shade[0], shade[1], shade[2], shade[3]) for period, shade in zip(periods, shades, strict=False)}

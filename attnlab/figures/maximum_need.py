@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from attnlab.figures.base import Figure
@@ -12,13 +14,18 @@ from attnlab.figures.style import cut, empty
 from attnlab.measures.needs import needs_of, units_of
 from attnlab.registry import register
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
+
+    from attnlab.results.conditions import Conditions
+
 
 @register("figure", "maximum_need")
 class MaximumNeed(Figure):
     """Largest hunger, thirst and any other need of an episode along training, a column a need."""
     title, order, place = "largest need of an episode", 82, "Fig 8B"
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         drawn, note = rows_of_panels(conditions)
         units = units_of(conditions)
         same = len(set(units.values())) == 1
@@ -41,7 +48,7 @@ class MaximumNeed(Figure):
         finish(figure, axes, conditions, "Maximum need", block, f"largest need of an episode{unit}", note)
         return figure
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         units = units_of(conditions)
         told = [need for need in needs_of(conditions) if need != "thirst"] or ["thirst"]  # thirst goes as hunger does
         return " ".join(start_and_end(conditions, f"{need}_max", f" {units[need]} {need}", block=10, digits=0)

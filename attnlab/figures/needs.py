@@ -14,6 +14,10 @@ from attnlab.registry import register
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.artist import Artist
+    from matplotlib.figure import Figure as Drawing
+
+    from attnlab.results.conditions import Conditions
 
 
 @register("figure", "needs")
@@ -21,7 +25,7 @@ class Needs(Figure):
     """Hunger, thirst and any other need within an episode."""
     title, order, place = "needs within an episode", 81, "Fig 8A"
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         import matplotlib.pyplot as plt
         lines, units = first_lines(conditions, MOST), units_of(conditions)
         rows = max(1, len(lines))
@@ -37,7 +41,7 @@ class Needs(Figure):
             empty(axes[0, 0], "no complete runs")
         axes[-1, 0].set_xlabel("machine cycle")
         figure.supylabel(label_of_needs(conditions), fontsize=9.5)
-        names: dict[str, object] = {}
+        names: dict[str, Artist] = {}
         for ax in axes[:, 0]:
             for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
                 names.setdefault(label, handle)
@@ -45,12 +49,12 @@ class Needs(Figure):
             figure.legend(list(names.values()), list(names), loc="outside upper right", ncol=4)
         return figure
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         parts = []
         for title, line in first_lines(conditions, MOST):
             cycles, seed = last_episode(line)
             words = [] if cycles is None else _meals(cycles, units_of(conditions))
-            if words:
+            if cycles is not None and words:
                 parts.append(f"{title} (seed {seed}) {', '.join(words)} in {len(cycles)} cycles")
         return sentence(parts, "", conditions)
 

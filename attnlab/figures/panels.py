@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from attnlab.measures.once import once_a_study
 from attnlab.stats import bootstrap_band
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -52,7 +53,7 @@ def panels(conditions: Conditions) -> list[Panel]:
         return found
     values = list(dict.fromkeys(stratum[0] for stratum in conditions.strata))
     colour, dash = colours([f"{v} " for v in values]), dashes(values)
-    groups: dict[tuple, list[Line]] = {}
+    groups: dict[tuple[str, ...], list[Line]] = {}
     for stratum in conditions.strata:
         value = stratum[0]
         curiosity, runs = next((c, runs) for c, runs in ((c, conditions.runs(c, stratum)) for c in curiosities)
@@ -84,7 +85,7 @@ def shown(conditions: Conditions) -> tuple[list[Panel], str]:
     return found[:MOST_PANELS], note
 
 
-def grid(count: int, height_in: float = 3.2, columns: int = 3, **sharing) -> tuple[Figure, list[Axes]]:
+def grid(count: int, height_in: float = 3.2, columns: int = 3, **sharing: Any) -> tuple[Figure, list[Axes]]:
     """A figure of page width with ``count`` panels, and its axes in reading order."""
     import matplotlib.pyplot as plt
     columns = max(1, min(columns, count))
@@ -99,17 +100,17 @@ def grid(count: int, height_in: float = 3.2, columns: int = 3, **sharing) -> tup
 
 def legend(figure: Figure, axes: list[Axes], title: str = "") -> None:
     """One legend for all panels: above them, beside the title, or below them if there are too many names for that."""
-    entries: dict[str, object] = {}
+    entries: dict[str, Artist] = {}
     for ax in axes:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     if entries:
-        where = "outside upper right" if sum(map(len, entries)) + 6 * len(entries) < 60 else "outside lower center"
-        figure.legend(list(entries.values()), list(entries), loc=where, ncol=min(5, len(entries)),
+        where: Any = "outside upper right" if sum(map(len, entries)) + 6 * len(entries) < 60 else "outside lower center"
+        figure.legend(handles=list(entries.values()), labels=list(entries), loc=where, ncol=min(5, len(entries)),
                       title=title or None, columnspacing=1.6, handlelength=2.4)
 
 
-def band(ax: Axes, x: np.ndarray, values: np.ndarray, line: Line, label: bool = True, **style) -> None:
+def band(ax: Axes, x: np.ndarray, values: np.ndarray, line: Line, label: bool = True, **style: Any) -> None:
     """Mean line and 95 % band over seeds of ``values`` (seeds, x)."""
     centre, low, high = bootstrap_band(values)
     ax.plot(x, centre, color=line.colour, ls=line.dash, label=line.name if label else None, **style)
@@ -149,6 +150,6 @@ def by_episode(runs: Runs, table: str, column: str, block: int, phase: str = "tr
 def block_of(conditions: Conditions, wanted: int, phase: str = "train") -> int:
     """The paper's block of episodes, or a smaller one if that would leave fewer than five points."""
     frame = conditions.frame("episodes")
-    episodes = frame.loc[frame["phase"] == phase, "episode"] if len(frame) else []
+    episodes = frame.loc[frame["phase"] == phase, "episode"].to_numpy() if len(frame) else np.zeros(0)
     most = int(episodes.max()) + 1 if len(episodes) else 0
     return wanted if most >= 5 * wanted or not most else max(1, most // 8)

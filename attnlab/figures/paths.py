@@ -20,7 +20,9 @@ from attnlab.tables.schema import CELL_M
 if TYPE_CHECKING:
     import matplotlib.figure
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
 
+    from attnlab.results.conditions import Conditions
     from attnlab.worlds.base import Layout
 
 KINDS = {"wall": "#444444", "obstacle": "#111111", "food": "#009e73", "water": "#0072b2"}
@@ -34,7 +36,7 @@ class Paths(Figure):
     how = ("Shade: visits in training of the first seed (dark: often); line: its last recorded episode from the circle "
            "on; green: food, blue: water.")
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         import matplotlib.pyplot as plt
         lines = first_lines(conditions, MOST)
         per_row = min(3, max(1, len(lines)))
@@ -57,7 +59,7 @@ class Paths(Figure):
             _legend(figure, layouts, {**KINDS, **own})
         return figure
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         parts = []
         for title, line in first_lines(conditions, MOST):
             try:
@@ -90,6 +92,7 @@ def _map(ax: Axes, line: Line, layout: Layout | None, colour: dict[str, str]) ->
     shade = np.where(visits > 0, np.log10(np.maximum(visits, 1)), np.nan)
     ax.imshow(shade.T, origin="lower", extent=extent, cmap="Greys", vmin=-1.0, vmax=max(1.0, np.nanmax(shade) * 1.35),
               interpolation="nearest")
+    assert layout is not None  # visit_maps has complained
     for solid in layout.solids:
         ax.fill(*zip(*solid.corners(), strict=True), color=colour[solid.kind], lw=0)
     cycles, shown_seed = last_episode(line)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Collection
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -16,6 +17,8 @@ from attnlab.measures.policies import greedy, in_words
 from attnlab.registry import register
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
+
     from attnlab.results.conditions import Conditions
 
 MOST = 8
@@ -29,10 +32,10 @@ class Policies(Figure):
     how = ("Large: the period that most seeds learned; small: how many of the seeds that visited the bin; grey: never "
            "visited, or nothing learned. Low: no wanting; LH: wanting, little liking; HH: both.")
 
-    def shows(self, where, measures):
+    def shows(self, where: str, measures: Collection[str]) -> bool:
         return any(name.startswith("policy") for name in measures)
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         import matplotlib.pyplot as plt
         from matplotlib.colors import BoundaryNorm, ListedColormap
         tables = learned(conditions)
@@ -75,7 +78,7 @@ class Policies(Figure):
             ax.set_xlabel("percept bin")
         return figure
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         tables = learned(conditions)
         drink = [t for t in tables if t.behaviour == "drink"] or tables
         parts = [f"{t.condition} {t.behaviour.upper()}" + (f", {t.level}" if t.level != "none" else "") + f": {t.words}"

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     import matplotlib.figure
     import pandas as pd
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+    from attnlab.figures.episode import Shade
+    from attnlab.results.conditions import Conditions
 
 MOST = 4
 
@@ -26,7 +30,7 @@ class Raster(Figure):
     how = ("Each tick is an activation, its colour the period until the next look; the needs below on the same "
            "axis.")
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         import matplotlib.pyplot as plt
         lines = first_lines(conditions, MOST)
         rows = max(1, len(lines))
@@ -57,7 +61,7 @@ class Raster(Figure):
         _legend(figure, axes, colour)
         return figure
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         parts = []
         for title, line in first_lines(conditions, MOST):
             cycles, _ = last_episode(line)
@@ -77,12 +81,12 @@ def _active(cycles: pd.DataFrame) -> list[str]:
             if name.endswith("_active") and cycles[name].notna().any()]
 
 
-def _ticks(ax: Axes, cycles: pd.DataFrame, colour: dict[int, tuple]) -> None:
+def _ticks(ax: Axes, cycles: pd.DataFrame, colour: dict[int, Shade]) -> None:
     names = _active(cycles)
     for place, name in enumerate(reversed(names)):
         active = cycles[cycles[f"{name}_active"].astype(bool)]
         for period, group in active.groupby(f"{name}_period"):
-            ax.vlines(group["cycle"], place - 0.4, place + 0.4, color=colour[int(period)], lw=0.8)
+            ax.vlines(group["cycle"], place - 0.4, place + 0.4, color=colour[int(str(period))], lw=0.8)
     ax.set_yticks(range(len(names)), [f"{name.upper()}" for name in reversed(names)])
     ax.set_ylim(-0.6, len(names) - 0.4)
     ax.grid(False)
@@ -92,7 +96,7 @@ def _ticks(ax: Axes, cycles: pd.DataFrame, colour: dict[int, tuple]) -> None:
                 va="center", ha="left", fontsize=8.5, color=INK)
 
 
-def _legend(figure: matplotlib.figure.Figure, axes: Any, colour: dict[int, tuple]) -> None:
+def _legend(figure: matplotlib.figure.Figure, axes: Any, colour: dict[int, Shade]) -> None:
     from matplotlib.lines import Line2D
     handles = [Line2D([], [], color=shade, lw=3, label=f"next look in {period}") for period, shade in colour.items()]
     needs_drawn = next((ax for ax in axes[1::2, 0] if ax.get_legend_handles_labels()[0]), None)

@@ -16,6 +16,9 @@ from attnlab.registry import register
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+    from attnlab.results.conditions import Conditions
 
 
 @register("figure", "rewards")
@@ -27,7 +30,7 @@ class Rewards(Figure):
     title, order, place = "cumulative rewards", 70, "Fig 7"
     how = "CR is paid on another scale (eq 4), so its extrinsic part is drawn too."
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         drawn, note = rows_of_panels(conditions)
         frame = conditions.frame("behaviours")
         names = list(dict.fromkeys(frame["behaviour"])) if len(frame) else []
@@ -47,7 +50,7 @@ class Rewards(Figure):
         finish(figure, axes, conditions, "Cumulative rewards", block, "reward of an episode, UoR", note)
         return figure
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         return validation(conditions, [("reward ", Reward(Reward.Params())),
                                        ("extrinsic part ", Reward(Reward.Params(extrinsic=True)))], " UoR an episode")
 

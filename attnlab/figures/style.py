@@ -8,7 +8,7 @@ import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attnlab.tables.files import write_bytes
 
@@ -34,7 +34,7 @@ def looks() -> Iterator[None]:
     """Settings under which every figure is drawn: fixed identifiers, our type sizes."""
     import matplotlib
     import seaborn as sns
-    rc = {"svg.hashsalt": "attnlab", "svg.fonttype": "path", "font.family": "DejaVu Sans", "font.size": 9.5,
+    rc: Any = {"svg.hashsalt": "attnlab", "svg.fonttype": "path", "font.family": "DejaVu Sans", "font.size": 9.5,
           "axes.titlesize": 10.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 9.5,
           "axes.edgecolor": "#999999", "axes.linewidth": 0.8, "axes.spines.top": False, "axes.spines.right": False,
           "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "legend.frameon": False,
@@ -62,7 +62,7 @@ def drawing() -> Iterator[None]:
 def colours(names: Sequence[str]) -> dict[str, str]:
     """A colour for each value: those of the paper's two robots are always theirs."""
     free = OTHERS
-    chosen = {}
+    chosen: dict[str, str] = {}
     for name in names:
         chosen[name] = ROLE_COLOURS.get(name) or free[len([n for n in chosen if n not in ROLE_COLOURS]) % len(free)]
     return chosen

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from attnlab.figures.base import Figure
 from attnlab.figures.curves import one_curve
 from attnlab.figures.found import start_and_end
 from attnlab.registry import register
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
+
+    from attnlab.results.conditions import Conditions
 
 
 @register("figure", "survival")
@@ -13,9 +20,9 @@ class Survival(Figure):
     """Survival time along training, in % of the episode."""
     title, order, place = "survival", 60, "Fig 6"
 
-    def draw(self, conditions):
+    def draw(self, conditions: Conditions) -> Drawing:
         return one_curve(conditions, "Survival", "survival", 50, "survival time, % of the episode", 100.0, marker="o",
                          ms=3.5)
 
-    def say(self, conditions):
+    def say(self, conditions: Conditions) -> str:
         return start_and_end(conditions, "survival", " %", 100)

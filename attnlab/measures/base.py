@@ -27,7 +27,7 @@ class Measure(ABC):
         class Meals(Measure):
             '''Meals an episode.'''
             unit = "meals"
-            def of(self, runs):
+            def of(self, runs: Runs) -> dict[int, float]:
                 return self.mean_of(runs, "meals", "validation")
 
     ``unit`` may be set in ``__init__`` when it depends on the parameters. ``compares_seeds``: is a seed's value about
@@ -74,7 +74,7 @@ class Measure(ABC):
     @staticmethod
     def means(rows: pd.DataFrame, column: str) -> dict[int, float]:
         """Mean of a column for each seed."""
-        return {int(seed): float(value) for seed, value in rows.groupby("seed")[column].mean().items()}
+        return {int(str(seed)): float(value) for seed, value in rows.groupby("seed")[column].mean().items()}
 
     @staticmethod
     def last_cycles(runs: Runs) -> dict[int, pd.DataFrame]:

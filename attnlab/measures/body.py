@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 from attnlab.measures.base import CannotMeasure, Measure, Phase
@@ -13,6 +14,8 @@ from attnlab.settings import setting
 if TYPE_CHECKING:
     import numpy as np
     import pandas as pd
+
+    from attnlab.results.conditions import Runs
 
 
 def consumed(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
@@ -33,7 +36,7 @@ class EnergyMargin(Measure):
         of: Literal["min", "mean", "max"] = setting("min", "which of the episode's values")
         phase: Phase = setting("validation", "which episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         well = runs.reading().energy_well
         values = self.mean_of(runs, f"energy_{self.params.of}", self.params.phase)
         return {seed: value - well for seed, value in values.items()}
@@ -46,7 +49,7 @@ class Alternation(Measure):
     as different."""
     unit = "%"
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         found = {}
         for seed, rows in self.last_cycles(runs).items():
             meals, drinks = consumed(rows)
@@ -56,7 +59,7 @@ class Alternation(Measure):
                 continue
             order = sorted([(int(t), "meal") for t in meals] + [(int(t), "drink") for t in drinks])
             kinds = [kind for _, kind in order]
-            differ = sum(a != b for a, b in zip(kinds, kinds[1:], strict=False)) / (n + m - 1)
+            differ = sum(a != b for a, b in pairwise(kinds)) / (n + m - 1)
             found[seed] = 100 * (differ - 2 * n * m / ((n + m) * (n + m - 1)))
         if all(value != value for value in found.values()):
             raise CannotMeasure("no recorded episode has both a meal and a drink")
@@ -68,7 +71,7 @@ class Rhythm(Measure):
     """Share of the power of hunger - thirst that is in its spectral peak, in %, in the last recorded episode."""
     unit = "%"
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import rhythm
         found = {}
         for seed, rows in self.last_cycles(runs).items():
@@ -83,7 +86,7 @@ class MealVariation(Measure):
     last recorded episode: 0 for a perfect rhythm. nan for a seed with fewer than three of both."""
     unit = "%"
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         import numpy as np
         found = {}
         for seed, rows in self.last_cycles(runs).items():

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from attnlab.measures.base import Measure, Phase
 from attnlab.measures.rewards import BEHAVIOUR, behaviours_of, mean_sums
 from attnlab.registry import register
 from attnlab.settings import setting
+
+if TYPE_CHECKING:
+    from attnlab.results.conditions import Runs
+
 
 
 @register("measure", "activations")
@@ -21,7 +26,7 @@ class Activations(Measure):
         minus: str | None = setting(None, "a behaviour, or several joined by +, to subtract")
         phase: Phase = setting("validation", "which episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         p = self.params
         found = mean_sums(runs, p.phase, p.behaviour, "activations")
         if p.minus:
@@ -40,7 +45,7 @@ class ActivationSaving(Measure):
         behaviour: str = setting("all", BEHAVIOUR)
         phase: Phase = setting("validation", "which episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         p = self.params
         acts = mean_sums(runs, p.phase, p.behaviour, "activations")
         cycles = self.mean_of(runs, "cycles", p.phase)
@@ -57,7 +62,7 @@ class Overlap(Measure):
     class Params:
         phase: Phase = setting("validation", "which episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import overlap_ratio
         acts = mean_sums(runs, self.params.phase, "all", "activations")
         union = self.mean_of(runs, "active_cycles", self.params.phase)
@@ -73,7 +78,7 @@ class OverlapExcess(Measure):
     """
     unit = "%"
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import overlap_null, overlap_ratio
         found = {}
         for seed, rows in self.last_cycles(runs).items():

@@ -44,8 +44,9 @@ def phase_rows(conditions: Conditions, table: str, phase: str) -> pd.DataFrame:
 def episode_counts(conditions: Conditions, table: str, phase: str) -> dict[str, int]:
     """Run -> how many episodes of a phase it has."""
     rows = phase_rows(conditions, table, phase)
-    found = rows.groupby("run", observed=True)["episode"].max() if len(rows) else {}
-    return {str(run): int(last) + 1 for run, last in found.items()}
+    if not len(rows):
+        return {}
+    return {str(run): int(last) + 1 for run, last in rows.groupby("run", observed=True)["episode"].max().items()}
 
 
 @once_a_study

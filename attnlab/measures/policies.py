@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attnlab.errors import ConfigError
 from attnlab.measures.base import CannotMeasure, Measure
@@ -44,7 +44,7 @@ def _learned(conditions: Conditions) -> dict[tuple[str, str, str], dict[int, int
     for any_level in (False, True):
         of = votes.assign(curiosity_level="any") if any_level else votes
         keys = ["run", "behaviour", "curiosity_level", "percept"]
-        total = of.groupby([*keys, "action"], observed=True, as_index=False)["visits"].sum()
+        total = of.groupby([*keys, "action"], observed=True)[["visits"]].sum().reset_index()
         total = total.sort_values([*keys, "visits", "action"]).drop_duplicates(keys, keep="last")
         for run, behaviour, level, percept, action in total[[*keys, "action"]].itertuples(index=False):
             found.setdefault((run, behaviour, level), {})[int(percept)] = int(action)
@@ -93,13 +93,13 @@ class PolicyMatch(Measure):
     class Params:
         behaviour: str = setting("drink", "whose table")
         level: str = setting("any", "curiosity level: none, low, LH, HH, or any")
-        pattern: dict = setting({"1-6": 12}, "bins -> period or periods, e.g. {1-4: 12, 5-6: [1, 4]}")
+        pattern: dict[Any, Any] = setting({"1-6": 12}, "bins -> period or periods, e.g. {1-4: 12, 5-6: [1, 4]}")
         least_bins: int = setting(4, "visited bins a seed needs", low=1)
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             self.bins = parse_pattern(self.pattern)
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         found = {}
         wanted, most = self.params.bins, runs.reading().percept_bins
         if max(wanted) != most:
@@ -114,7 +114,7 @@ class PolicyMatch(Measure):
         return found
 
 
-def parse_pattern(pattern: dict) -> dict[int, tuple[int, ...]]:
+def parse_pattern(pattern: dict[Any, Any]) -> dict[int, tuple[int, ...]]:
     """{"1-4": 12, 5: [1, 4]} -> {1: (12,), ..., 5: (1, 4)}. Raises ConfigError."""
     bins: dict[int, tuple[int, ...]] = {}
     for key, periods in pattern.items():
@@ -142,11 +142,11 @@ class PolicyLevels(Measure):
     class Params:
         levels: list[str] = setting(["low", "LH", "HH"], "curiosity levels to compare")
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             if len(set(self.levels)) < 2:
                 raise ConfigError("levels", "needs two different curiosity levels or more")
 
-    def tables(self, runs) -> np.ndarray:
+    def tables(self, runs: Runs) -> np.ndarray:
         """Learned periods of shape (seeds, levels, cells), 0 where never visited."""
         import numpy as np
         there = set(runs.runs.values())
@@ -160,12 +160,12 @@ class PolicyLevels(Measure):
                         table[i, j, b * bins + percept - 1] = period
         return table
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats.levels import level_contrast
         table = self.tables(runs)
         return dict(zip(sorted(runs.runs), (100 * level_contrast(table)).tolist(), strict=True))
 
-    def null(self, runs, draws: int, seed: int) -> np.ndarray:
+    def null(self, runs: Runs, draws: int, seed: int) -> np.ndarray:
         """Means over seeds of the same number with each seed's levels exchanged at random, shape (draws,)."""
         from attnlab.stats.levels import level_null
         return 100 * level_null(self.tables(runs), draws, seed)

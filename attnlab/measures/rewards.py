@@ -41,8 +41,7 @@ def sums(conditions: Conditions, phase: str, behaviour: str, column: str, within
     rows = window_rows(conditions, "behaviours", phase, within)
     if behaviour != "all":
         rows = rows[rows["behaviour"].isin(behaviour.split("+"))]
-    found = rows.groupby(["run", "episode"], as_index=False, observed=True)[column].sum()
-    return found.rename(columns={column: "value"})
+    return rows.groupby(["run", "episode"], observed=True)[column].sum().rename("value").reset_index()
 
 
 @once_a_study
@@ -85,10 +84,10 @@ class Reward(Measure):
         episodes: list[int] | None = setting(None, "[first, end) of them; all if left out")
         extrinsic: bool = setting(False, "without the intrinsic part of eq 4")
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             window(self.episodes, "episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         p = self.params
         column = "reward_extrinsic" if p.extrinsic else "reward"
         return mean_sums(runs, p.phase, p.behaviour, column, p.episodes)
@@ -105,11 +104,11 @@ class RewardRise(Measure):
         early: list[int] = setting([0, 200], "[first, end) of the early training episodes")
         late: list[int] = setting([400, 500], "[first, end) of the late training episodes")
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             window(self.early, "early")
             window(self.late, "late")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         p = self.params
         late = mean_sums(runs, "train", p.behaviour, "reward", p.late)
         early = mean_sums(runs, "train", p.behaviour, "reward", p.early)
@@ -133,10 +132,10 @@ class RewardConvergence(Measure):
         end: int = setting(100, "episodes that make the end level", unit="episodes", low=1)
         episodes: list[int] = setting([0, 500], "[first, end) of the training episodes looked at")
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             window(self.episodes, "episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import convergence_episode
         p, found = self.params, {}
         curves = _curves(runs.conditions, p.behaviour, _checked(runs, "train", p.behaviour, p.episodes))

@@ -23,9 +23,12 @@ def visit_maps(runs: Runs, phase: str) -> dict[int, np.ndarray]:
     there = of_seeds(runs, _visited(runs.conditions, phase))
     if not there:
         raise CannotMeasure(f"no {phase} episodes left a coverage map")
-    found = {seed: _map(runs.conditions, phase, runs.runs[seed]) for seed in there}
-    if any(visits is None for visits in found.values()):
-        raise CannotMeasure("the world of these runs cannot be built here, so its floor is not known")
+    found: dict[int, np.ndarray] = {}
+    for seed in there:
+        visits = _map(runs.conditions, phase, runs.runs[seed])
+        if visits is None:
+            raise CannotMeasure("the world of these runs cannot be built here, so its floor is not known")
+        found[seed] = visits
     return found
 
 
@@ -65,7 +68,7 @@ class Coverage(Measure):
         phase: Phase = setting("train", "which episodes")
         footprint: bool = setting(False, "count what the body touched, not the cells of its centre")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.simulators.robot import RADIUS_M
         from attnlab.stats import footprint_cells
         from attnlab.tables.schema import CELL_M
@@ -81,7 +84,7 @@ class VisitEntropy(Measure):
     unit = "bit"
     Params = _Phase
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import entropy_bits
         return {seed: entropy_bits(visits) for seed, visits in visit_maps(runs, self.params.phase).items()}
 
@@ -91,7 +94,7 @@ class VisitGini(Measure):
     """Gini coefficient of the visits over all cells of the floor: smaller is more even."""
     Params = _Phase
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import gini
         return {seed: gini(visits) for seed, visits in visit_maps(runs, self.params.phase).items()}
 
@@ -101,7 +104,7 @@ class Curvature(Measure):
     """Mean change of direction along the path of the last recorded episode (rad/m): smaller is smoother."""
     unit = "rad/m"
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import curvature
         return {seed: curvature(rows["x_m"].to_numpy(float), rows["y_m"].to_numpy(float))
                 for seed, rows in self.last_cycles(runs).items()}

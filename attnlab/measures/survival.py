@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attnlab.measures.base import Measure, Phase, window
 from attnlab.measures.frames import Window, of_seeds, split, window_rows
@@ -15,7 +15,7 @@ from attnlab.settings import setting
 if TYPE_CHECKING:
     import numpy as np
 
-    from attnlab.results.conditions import Conditions
+    from attnlab.results.conditions import Conditions, Runs
 
 
 @register("measure", "survival")
@@ -28,10 +28,10 @@ class Survival(Measure):
         phase: Phase = setting("validation", "which episodes")
         episodes: list[int] | None = setting(None, "[first, end) of them; all if left out")
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             window(self.episodes, "episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         found = self.mean_of(runs, "survival", self.params.phase, self.params.episodes)
         return {seed: 100 * value for seed, value in found.items()}
 
@@ -50,10 +50,10 @@ class SurvivalConvergence(Measure):
         level: float = setting(99.5, "survival that counts as converged", unit="%", low=0, high=100)
         episodes: list[int] = setting([0, 500], "[first, end) of the training episodes looked at")
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             window(self.episodes, "episodes")
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import convergence_episode
         p = self.params
         curves = of_seeds(runs, _curves(runs.conditions, self.check_episodes(runs, "train", p.episodes)))
@@ -81,16 +81,16 @@ class Episode(Measure):
         phase: Phase = setting("validation", "which episodes")
         episodes: list[int] | None = setting(None, "[first, end) of them; all if left out")
 
-        def __post_init__(self):
+        def __post_init__(self) -> None:
             window(self.episodes, "episodes")
 
-    def __init__(self, params, context=None):
+    def __init__(self, params: Any, context: Any = None):
         super().__init__(params, context)
         column = params.column
         of_a_need = UNIT if column.endswith(("_mean", "_max")) else ""  # also of one that a behaviour brings
         self.unit = self.UNITS.get(column) or self.PREFIXES.get(column.partition("_")[0]) or of_a_need
 
-    def of(self, runs):
+    def of(self, runs: Runs) -> dict[int, float]:
         from pandas.api.types import is_numeric_dtype
 
         from attnlab.errors import ConfigError, nearest

@@ -26,7 +26,8 @@ class Lived:
 
     ``cycles`` n; ``death``: the cause, or None; ``path`` (n + 1, 3): pose (x m, y m, heading rad) at the start and
     after each cycle; ``energy``, ``wanting``, ``safety`` and ``safety_held`` (from the true distance, from AVOID's
-    last percept; None where nobody answers for crashes) and each of ``needs`` (n,): after each cycle; ``looks``: every activation, by behaviour.
+    last percept; None where nobody answers for crashes) and each of ``needs`` (n,): after each cycle; ``looks``: every
+    activation, by behaviour.
     """
     phase: str
     episode: int

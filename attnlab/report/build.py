@@ -40,11 +40,12 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     judged = {conditions.stratum_name(s): judge(claims, conditions, dict(zip(conditions.settings, s, strict=True)))
               for s in conditions.strata}
     telling = _telling(judged)
-    first = judged.get(telling) or next(iter(judged.values()), [])
+    told = judged[telling] if telling is not None else []
+    first = told or next(iter(judged.values()), [])
     with drawing(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
         wanted = [name for name in gallery() if conditions.strata and (only is None or name in only)]
-        shown = drawn.draw(wanted, FigureContext(others), conditions, captions, judged.get(telling, []), target)
+        shown = drawn.draw(wanted, FigureContext(others), conditions, captions, told, target)
         tables = _tables(claims, conditions, target)
         sections = _sections(study, conditions, judged, telling, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
@@ -60,14 +61,14 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
                 sections, provenance.block(study, conditions, claims))
     write_bytes(target / "index.html", text.encode())
     if not quiet:
-        _print(notes, dict(tables).get(telling), first, telling, target)
+        _print(notes, next((rows for name, rows in tables if name == telling), None), first, telling, target)
     return target / "index.html"
 
 
 def _claims_of(study: Study) -> str:
     """The claims file that most runs say they were started under."""
-    names = Counter((study.about(run).get("claims") or {}).get("name") for run in study.complete)
-    names.pop(None, None)
+    marks = [study.about(run).get("claims") or {} for run in study.complete]
+    names = Counter(str(mark["name"]) for mark in marks if mark.get("name"))
     return min(names, key=lambda name: (-names[name], name), default=DEFAULT)
 
 
@@ -79,7 +80,7 @@ def _tables(claims: Claims, conditions: Conditions, target: Path) -> list[tuple[
         within = dict(zip(conditions.settings, stratum, strict=True))
         roles = {role.label: conditions.matching(role.where, within)[0] for role in claims.roles.values()}
         if set(roles) & set(paper.conditions):
-            tables.append((conditions.stratum_name(stratum), table5.rows(paper, conditions, roles)))
+            tables.append((conditions.stratum_name(stratum), table5.rows(paper, roles)))
     write_bytes(target / "table5.csv", table5.as_csv(tables))
     return tables
 
@@ -96,7 +97,7 @@ def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdi
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
     sections = []
     if judged:
-        section, csv = glance.section(study, conditions)
+        section, csv = glance.section(study)
         write_bytes(target / "conditions.csv", csv)
         sections.append(section)
     if tables and telling is not None:

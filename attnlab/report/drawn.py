@@ -33,7 +33,8 @@ def draw(names: Sequence[str], context: FigureContext, conditions: Conditions, c
             shown = Shown(figure.key, figure.heading, paper, said, png, claims, figure.how)
         except Exception as cause:  # noqa: BLE001  a figure of anybody's: it is named, and the page goes on
             spec = parts["figure", name]
-            shown = Shown(name, spec.cls.title or name, paper, failed=f"{_short(spec.origin)}: {describe(cause)}")
+            title = str(getattr(spec.cls, "title", "") or name)
+            shown = Shown(name, title, paper, failed=f"{_short(spec.origin)}: {describe(cause)}")
         found.append(shown)
     return found
 

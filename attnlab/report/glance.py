@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from attnlab.report.page import Section, table
-from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study
 from attnlab.results.summary import shown, summary_frame
 
 MOST = 40
 
 
-def section(study: Study, conditions: Conditions) -> tuple[Section, bytes]:
+def section(study: Study) -> tuple[Section, bytes]:
     """The table for the page (of the first 40 conditions) and as CSV (of all)."""
     frame = summary_frame(study, study.named())
     names = ", ".join(study.behaviours["behaviour"].unique())
-    rows = [shown(row) for row in frame.head(MOST).to_dict("records")]
+    rows = [shown({str(name): value for name, value in row.items()}) for row in frame.head(MOST).to_dict("records")]
     more = f" The first {MOST} of {len(frame)}; all are in conditions.csv." if len(frame) > MOST else ""
     html = table(list(frame.columns), rows, range(1, len(frame.columns))) + (
         "<p class=small>Means over seeds. Early, late, validation: survival in % of the episode, first and second "

@@ -76,7 +76,7 @@ def _factors(conditions: Conditions) -> tuple[dict[str, list[str]], dict[str, st
 
     from attnlab.reading import Reading
     plain = {f"reading.{name}": text(value) for name, value in dataclasses.asdict(Reading()).items()}
-    merged: dict[tuple, list[int]] = {}
+    merged: dict[tuple[int, ...], list[int]] = {}
     for place in range(len(conditions.settings)):
         if conditions.settings[place] == "variant":
             continue  # the name of a combination, not a setting of it

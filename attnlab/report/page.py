@@ -10,13 +10,9 @@ from html import escape
 from pathlib import Path
 
 from attnlab.claims.files import Claims
-from attnlab.claims.judge import UNTESTABLE, VERDICTS, Verdict
+from attnlab.claims.findings import Finding
+from attnlab.claims.judge import Verdict
 
-CLASSES = dict(zip(VERDICTS, ("v-reproduced", "v-direction", "v-not", "v-contradicted", "v-untestable"), strict=True))
-MEANINGS = dict(zip(VERDICTS, (
-    "the claimed direction is clear over seeds, and the paper's number (if it gives one) is met",
-    "the claimed direction is clear, the number is not met", "the interval over seeds allows either side",
-    "the opposite direction is clear", "the runs cannot say"), strict=True))
 PROVENANCE = ("<!-- provenance:begin -->", "<!-- provenance:end -->")  # all that may differ between two builds
 
 
@@ -43,8 +39,8 @@ class Section:
     html: str
 
 
-def chip(verdict: str, text: str = "") -> str:
-    return f'<span class="chip {CLASSES[verdict]}">{escape(text or verdict)}</span>'
+def chip(verdict: Finding, text: str = "") -> str:
+    return f'<span class="chip {verdict.css}">{escape(text or verdict)}</span>'
 
 
 def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict], where: str,
@@ -79,7 +75,7 @@ def _notes(notes: Sequence[str]) -> str:
 
 def nothing_testable(verdicts: Sequence[Verdict]) -> bool:
     """Is this a study of other things than these claims?"""
-    return all(v.verdict == UNTESTABLE for v in verdicts)
+    return all(v.verdict is Finding.UNTESTABLE for v in verdicts)
 
 
 def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> str:
@@ -91,23 +87,23 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> st
         return (f'<h2 id="verdicts">Verdicts</h2><p>None of the {len(verdicts)} claims of <cite>{escape(claims.title)}'
                 f"</cite> can be tested here. {count} of them: {escape(reason)}. All reasons are in verdicts.csv.</p>")
     counts = Counter(v.verdict for v in verdicts)
-    bar = "".join(f'<span class="{CLASSES[v]}" style="flex: {counts[v]}">{counts[v]}</span>' for v in VERDICTS
+    bar = "".join(f'<span class="{v.css}" style="flex: {counts[v]}">{counts[v]}</span>' for v in Finding
                   if counts[v])
-    key = "".join(f"<span>{chip(v)} {escape(MEANINGS[v])}</span>" for v in VERDICTS if counts[v])
+    key = "".join(f"<span>{chip(v)} {escape(v.meaning)}</span>" for v in Finding if counts[v])
     items = []
-    for verdict in VERDICTS:
+    for verdict in Finding:
         mine = [v for v in verdicts if v.verdict == verdict]
         if mine:
             said = "; ".join(f'<a href="#claim-{escape(v.id)}">{escape(v.id)}</a> {escape(v.claim.title)}'
                              for v in mine)
             items.append(f"<li>{chip(verdict)} {said}.</li>")
-    holds = counts[VERDICTS[0]] + counts[VERDICTS[1]]
+    holds = sum(counts[v] for v in Finding if v.holds)
     source = f", {escape(claims.source)}" if claims.source else ""
     number = f"{len(verdicts)} claim{'s' * (len(verdicts) > 1)}"
     return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{number} of <cite>{escape(claims.title)}</cite>'
             f"{source}, judged by the rules of {escape(claims.path.name)}"
             f"{f' for <b>{escape(where)}</b> alone (the others: below)' if where else ''}: the claimed direction holds "
-            f"in <b>{holds}</b>, and in {counts[VERDICTS[0]]} of these any number given is met too.</p>\n"
+            f"in <b>{holds}</b>, and in {counts[Finding.REPRODUCED]} of these any number given is met too.</p>\n"
             f'<div class="bar" role="img" aria-label="{holds} of {len(verdicts)} claims hold">{bar}</div>\n'
             f'<div class="key small">{key}</div>\n<ul class="headline">{"".join(items)}</ul>')
 

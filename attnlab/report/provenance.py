@@ -25,7 +25,8 @@ def notes(study: Study, conditions: Conditions, claims: Claims) -> list[str]:
     runs = study.runs
     other = runs[runs["status"] != "complete"] if len(runs) else runs
     for status, group in other.groupby("status", sort=True) if len(other) else []:
-        named = [f"{row.run} ({row.why})" if row.why else row.run for row in group.head(8).itertuples()]
+        shown = group.head(8)
+        named = [f"{run} ({why})" if why else str(run) for run, why in zip(shown["run"], shown["why"], strict=True)]
         more = f" and {len(group) - 8} more" if len(group) > 8 else ""
         found.append(f"{len(group)} of {len(runs)} runs are left out, {status}: {'; '.join(named)}{more}")
     found += conditions.notes + _small(conditions)
@@ -118,7 +119,7 @@ def block(study: Study, conditions: Conditions, claims: Claims) -> str:
             ("study", str(study.path)), ("claims file", f"{claims.path.name}, sha256 {claims.sha256}"),
             *((f"{count} runs made by", text) for text, count in sorted(versions.items())),
             ("machine cycles simulated", f"{cycles:,}"), ("processor time of the runs", f"{cpu:,.0f} s")]
-    runs = [(name, a.get("seed"), a.get("key"), a.get("wall_s"))
+    runs = [(name, *(str(a.get(what)) for what in ("seed", "key", "wall_s")))
             for name, a in zip(conditions.configs, about, strict=True)]
     return table(("", ""), rows) + "<details><summary>All runs</summary>" + \
         table(("run", "seed", "key", "wall time, s"), runs, (1, 3)) + "</details>"

@@ -47,7 +47,7 @@ class Row:
         return self.here[0] - self.paper.mean if self.here and self.paper else None
 
 
-def rows(table: Table, conditions: Conditions, roles: Mapping[str, Runs]) -> list[Row]:
+def rows(table: Table, roles: Mapping[str, Runs]) -> list[Row]:
     """A row for every quantity and condition of the paper's table; ``roles``: condition's label -> its runs."""
     found = []
     for quantity, cells in table.cells.items():

@@ -43,12 +43,10 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
 def matrix(judged: dict[str, list[Verdict]], most: int = 12) -> Section:
     """Claims by combinations of the other settings, for a study that sweeps more than curiosity."""
     names = list(judged)[:most]
-    letters = {"reproduced": "yes", "direction only": "dir.", "not reproduced": "no", "contradicted": "opp.",
-               "untestable": "?"}
     head = "<th>claim</th>" + "".join(f"<th>{i + 1}</th>" for i in range(len(names)))
     rows = []
     for place, first in enumerate(judged[names[0]]):
-        cells = "".join(f"<td>{chip(judged[n][place].verdict, letters[judged[n][place].verdict])}</td>" for n in names)
+        cells = "".join(f"<td>{chip(judged[n][place].verdict, judged[n][place].verdict.letter)}</td>" for n in names)
         rows.append(f"<tr><td>{escape(first.id)} {escape(first.claim.title)}</td>{cells}</tr>")
     listed = "".join(f"<li>{escape(name)}</li>" for name in names)
     more = f"<p class=small>The first {most} of {len(judged)}; all are in verdicts.csv.</p>" \
@@ -85,13 +83,11 @@ def print_table(verdicts: Sequence[Verdict], where: str = "") -> None:
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
-    colours = {"reproduced": "green", "direction only": "cyan", "not reproduced": "", "contradicted": "red",
-               "untestable": "dim"}
     shown = Table(title=Text(f"Claims ({where})" if where else "Claims"), title_justify="left")
     for head in ("claim", "", "verdict", "effect d", "p, Holm"):
         shown.add_column(head, justify="right" if head in ("effect d", "p, Holm") else "left")
     for v in verdicts:
-        shown.add_row(v.id, Text(v.claim.title), Text(v.verdict, style=colours[v.verdict]), _n(v.lead.effect, ".2f"),
+        shown.add_row(v.id, Text(v.claim.title), Text(v.verdict, style=v.verdict.style), _n(v.lead.effect, ".2f"),
                       _n(v.p_holm))
     console = Console()
     if not console.is_terminal:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from attnlab.errors import ConfigError, nearest
 from attnlab.results.arrow import join, last_episode, repeated
@@ -22,6 +22,10 @@ RUNS = ["study", "run", "condition", "status", "why", "seed", "curiosity", "key"
         "overrides"]
 
 
+@overload
+def load(study: str | Path, /) -> Study: ...
+@overload
+def load(study: str | Path, /, *more: str | Path) -> Study | Studies: ...
 def load(*studies: str | Path) -> Study | Studies:
     """The study in this folder (or of this name in outputs/), or several as one: their frames one below the other.
     Raises ConfigError if there is none."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -27,8 +28,8 @@ def guard_of(attentions: Sequence[Attention]) -> Attention | None:
 
 
 def safety(guard: Attention, distances: Values) -> Values:
-    """Eq (13) in every cycle, shape (n,), from where the robot is: ``distances`` (n,), m, from its centre to the nearest
-    surface, which count up to sigma_max. No sensor is read for it."""
+    """Eq (13) in every cycle, shape (n,), from where the robot is: ``distances`` (n,), m, from its centre to the
+    nearest surface, which count up to sigma_max. No sensor is read for it."""
     shortest, longest, high = min(guard.periods), max(guard.periods), guard.behaviour.sigma_high
     watched = held(guard, len(distances), [safety_at(1.0, 1.0, a.period, shortest, longest) for a in guard.log])
     return np.minimum(distances, high) / high * watched
@@ -65,7 +66,7 @@ def bouts(meals: Mapping[str, Sequence[int]]) -> dict[str, float | int | None]:
                     if before is None or time - before >= BOUT_MC]
     started.sort()
     gaps = np.diff([time for time, _ in started])
-    switches = sum(one != other for (_, one), (_, other) in zip(started, started[1:], strict=False))
+    switches = sum(one != other for (_, one), (_, other) in pairwise(started))
     return {"bouts": len(started), "bout_switches": switches,
             "bout_interval_mean": float(gaps.mean()) if gaps.size else None,
             "bout_interval_sd": float(gaps.std(ddof=1)) if gaps.size > 1 else None}

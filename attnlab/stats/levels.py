@@ -51,7 +51,8 @@ def level_contrast(tables: Ints) -> Floats:
     """Between-level less within-level distance of each seed, shape (seeds,), from ``tables`` (seeds, levels, cells)."""
     seeds, levels, cells = tables.shape
     distance = distances(tables.reshape(seeds * levels, cells))
-    return _contrasts(distance, np.tile(np.arange(levels), seeds)[None, :], seeds)[0]
+    found: npt.NDArray[np.float64] = _contrasts(distance, np.tile(np.arange(levels), seeds)[None, :], seeds)[0]
+    return found
 
 
 def level_null(tables: Ints, draws: int = 1000, seed: int = 0) -> Floats:
@@ -60,4 +61,5 @@ def level_null(tables: Ints, draws: int = 1000, seed: int = 0) -> Floats:
     distance = distances(tables.reshape(seeds * levels, cells))
     rng = np.random.default_rng(seed)
     orders = rng.permuted(np.tile(np.arange(levels), (draws, seeds, 1)), axis=2).reshape(draws, -1)
-    return np.nanmean(_contrasts(distance, orders, seeds), axis=1)
+    found: npt.NDArray[np.float64] = np.nanmean(_contrasts(distance, orders, seeds), axis=1)
+    return found

@@ -77,4 +77,5 @@ def overlap_null(active: npt.ArrayLike, draws: int = 200, seed: int = 0) -> npt.
     hit = np.zeros((draws, n), bool)
     for train, shifts in zip(at, rng.integers(0, n, (draws, behaviours)).T, strict=True):
         hit[np.arange(draws)[:, None], (train + shifts[:, None]) % n] = True
-    return (total - hit.sum(axis=1)) / total
+    share: npt.NDArray[np.float64] = (total - hit.sum(axis=1)) / total
+    return share

@@ -86,8 +86,8 @@ def commands_finite(name: str, **settings: Any) -> None:
     def visit(behaviour: Behaviour, now: Senses) -> None:
         sigma = behaviour.percept(now)
         if behaviour.released(now, sigma):
-            command = behaviour.command(now, sigma)
-            assert command is None or (len(command) == 2 and all(map(math.isfinite, command))), f"{name}: {command}"
+            said = behaviour.command(now, sigma)
+            assert said is None or (len(said) == 2 and all(map(math.isfinite, said))), f"{name}: {said}"
     scenes(name, settings, visit)
 
 

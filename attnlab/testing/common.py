@@ -19,7 +19,7 @@ IN_A_RUN = ("simulator", "behaviours", "needs", "fusion", "curiosity", "learner"
 
 def checks(group: str) -> list[Callable[..., None]]:
     """Checks of :data:`group` that need nothing special."""
-    def documented(name: str, **settings: Any) -> None:
+    def documented(name: str, **_: Any) -> None:
         """The class says what it is; every parameter says what it means."""
         spec = part_of(group, name)
         assert (inspect.getdoc(spec.cls) or "").strip(), f"{spec.origin}: {spec.cls.__name__} has no docstring"

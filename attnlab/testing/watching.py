@@ -45,7 +45,7 @@ PROBE = (columns_as_declared, meanings_said)
 def touches_nothing(name: str, **settings: Any) -> None:
     """The tables of a run are the same bytes with it and without it, and it raises nothing."""
     with tempfile.TemporaryDirectory() as place:
-        bytes_of = []
+        bytes_of: list[Any] = []
         for chosen in ({}, _chosen("callback", name, settings)):
             folder = Path(place) / str(len(bytes_of))
             assert run_to_folder(config(**chosen), folder, INFO)

@@ -38,7 +38,8 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
             shift = safety * (curiosity == "litman")
             add("episodes", **key, cycles=cycles, survival=min(1.0, 0.9 + 0.1 * rng.random()), death="none",
                 active_cycles=40, meals=1, drinks=1, safety_mean=0.3 + shift + 0.01 * rng.random(), safety_min=0.1,
-                safety_max=0.9, safety_held_mean=0.3, safety_held_min=0.1, safety_held_max=0.9, energy_mean=4000 + 9 * rng.random(), energy_min=3500.0, energy_max=4600.0,
+                safety_max=0.9, safety_held_mean=0.3, safety_held_min=0.1, safety_held_max=0.9,
+                energy_mean=4000 + 9 * rng.random(), energy_min=3500.0, energy_max=4600.0,
                 hunger_mean=400 + rng.random(), hunger_max=600.0, thirst_mean=410 + rng.random(), thirst_max=610.0,
                 wanting_mean=0.5, path_m=20.0, turn_rad=30.0, bouts=4, bout_switches=2,
                 bout_interval_mean=250.0, bout_interval_sd=40.0, **swept)

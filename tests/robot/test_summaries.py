@@ -21,8 +21,8 @@ def guard(*looks, periods=(1, 4, 8, 12)):
 
 
 def test_safety_is_from_where_the_robot_is():
-    """Periods 1, then 12: the robot is safe in the first cycles as far as it is away, and not at all afterwards. What it
-    saw (0.5 m) is another series."""
+    """Periods 1, 4, 12: the robot is safe in the first cycles as far as it is away, and not at all at 12. What it saw
+    (0.5 m) is another series."""
     clock = guard((0, 0.5, 1), (1, 0.5, 4), (5, 0.5, 12))
     at = np.array([0.2, 0.4, 0.6, 0.8, 3.0, 0.9, 0.9])
     assert safety(clock, at) == pytest.approx([0.2, 0.4 * 8 / 11, 0.6 * 8 / 11, 0.8 * 8 / 11, 8 / 11, 0.0, 0.0])
