@@ -23,7 +23,9 @@ def softmax(values: list[float], tau: float) -> list[float]:
     """(3) Boltzmann probabilities of the actions. The maximum is subtracted: a penalty drives Q to about -1200."""
     top = max(values)
     weights = [exp((q - top) / tau) for q in values]
-    total = sum(weights)
+    total = 0.0
+    for weight in weights:  # left to right: the builtin sum compensates from Python 3.12 on
+        total += weight
     return [weight / total for weight in weights]
 
 

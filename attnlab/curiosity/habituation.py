@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import dist, exp
+from math import exp
 
+from attnlab.arithmetic import distance
 from attnlab.curiosity.base import Curiosity
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -20,7 +21,7 @@ class Units:
         """(index, activity exp(-||x - w||)) of the nearest unit; (-1, 0) if there is none."""
         if not self.weights:
             return -1, 0.0
-        distances = [dist(view, w) for w in self.weights]
+        distances = [distance(view, w) for w in self.weights]
         nearest = min(distances)
         return distances.index(nearest), exp(-nearest)
 

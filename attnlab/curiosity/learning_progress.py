@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from attnlab.arithmetic import total
 from attnlab.curiosity.base import Curiosity
 from attnlab.curiosity.prediction_error import Transitions, unknowing
 from attnlab.registry import register
@@ -41,7 +42,7 @@ class LearningProgress(Curiosity):
         if len(errors) < p.window + p.delay:
             return 0.0
         then = errors[-p.window - p.delay:len(errors) - p.delay]
-        return (sum(then) - sum(errors[-p.window:])) / p.window
+        return (total(then) - total(errors[-p.window:])) / p.window
 
     def liking(self, memory: Memory, percept: int) -> float:
         return min(1.0, max(0.0, self.params.gain * self.progress(memory[1][percept])))

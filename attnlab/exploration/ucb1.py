@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import log, sqrt
 from random import Random
 
+from attnlab.arithmetic import total
 from attnlab.exploration.base import Exploration
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -29,7 +30,7 @@ class Ucb1(Exploration):
     def _best(self, values: list[float], visits: list[int]) -> int:
         if 0 in visits:
             return visits.index(0)
-        spread = 2.0 * log(sum(visits))
+        spread = 2.0 * log(total(visits))
         bounds = [q + self.params.c * sqrt(spread / n) for q, n in zip(values, visits, strict=True)]
         return bounds.index(max(bounds))
 

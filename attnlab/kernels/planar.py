@@ -7,7 +7,7 @@
 
 from __future__ import annotations
 
-from math import cos, floor, hypot, inf, pi, sin
+from math import cos, floor, inf, pi, sin, sqrt
 
 import numpy as np
 import numpy.typing as npt
@@ -172,6 +172,7 @@ def advance(trace: Floats, cycle: int, boxes: Floats, v: float, w: float, dt: fl
         if safety > 0.0:
             sonar(trace, at, boxes, beams, reach, shortest, ranges)
             for k in range(len(ranges)):
-                if hypot(ranges[k] + beams[k, 4], hypot(beams[k, 0], beams[k, 1])) < safety:
+                along, x, y = ranges[k] + beams[k, 4], beams[k, 0], beams[k, 1]
+                if sqrt(along * along + (x * x + y * y)) < safety:
                     return -moved
     return cycles

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
+from attnlab.arithmetic import total
 from attnlab.equations import q_update
 from attnlab.exploration.base import Exploration
 from attnlab.learners.base import LearnerContext
@@ -29,7 +30,8 @@ class ExpectedSarsa(QLearning):
         values = self.q[state]
         if self._policy is None:
             return max(values)
-        return sum(p * q for p, q in zip(self._policy.probabilities(values, self.visits[state]), values, strict=True))
+        chances = self._policy.probabilities(values, self.visits[state])
+        return total(p * q for p, q in zip(chances, values, strict=True))
 
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
         row, following = self.q[state], self.expected(next_state)

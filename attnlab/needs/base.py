@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from math import ceil
 from typing import Any
 
+from attnlab.arithmetic import total
 from attnlab.equations import energy_after_cycle, need_after_cycle
 from attnlab.reading import Reading
 
@@ -97,7 +98,7 @@ class Body:
             if need.per_cycle > 0:
                 cycles = min(cycles, ceil(left / need.per_cycle))
         if self._energy_floor is not None:
-            fed = sum(eaten[i] for i, rate in enumerate(self._rates) if rate[2])
+            fed = total(eaten[i] for i, rate in enumerate(self._rates) if rate[2])
             left = self._clip(energy_after_cycle(self.energy, 0.0, self.e_nb, active, fed)) - self._energy_floor
             if left - self.e_u < 0:
                 return 1

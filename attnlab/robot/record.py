@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from attnlab.arithmetic import total
 from attnlab.attention import Attention
 from attnlab.cycle import Agent
 from attnlab.needs.base import Body
@@ -78,7 +79,7 @@ class Recorder:
                   **_of("safety", safe), **_of("safety_held", safe_held),
                   energy_mean=float(energy.mean()), energy_min=float(energy.min()), energy_max=float(energy.max()),
                   **{"hunger_mean": None, "hunger_max": None, "thirst_mean": None, "thirst_max": None, **means},
-                  wanting_mean=float(wanting.mean()), path_m=float(np.hypot(steps[:, 0], steps[:, 1]).sum()),
+                  wanting_mean=float(wanting.mean()), path_m=float(_lengths(steps[:, 0], steps[:, 1]).sum()),
                   turn_rad=turning(path), **bouts(_meal_times(body, needs)), **self.swept, **added["episodes"])
         for attention, penalty in zip(agent.attentions, penalties, strict=True):
             mine = {name: values[attention.behaviour.name] for name, values in added["behaviours"].items()}
@@ -104,10 +105,11 @@ class Recorder:
         log = attention.log
         paid = [a for a in log if a.reward is not None]
         self._add("behaviours", **self.run_columns, phase=phase, episode=episode, behaviour=attention.behaviour.name,
-                  activations=len(log), releases=sum(a.released for a in log),
-                  reward=sum((a.reward or 0.0 for a in paid), 0.0),
-                  reward_extrinsic=sum((a.extrinsic or 0.0 for a in paid), 0.0), penalty=penalty,
-                  liking_mean=sum(a.liking for a in log) / len(log), period_mean=sum(a.period for a in log) / len(log),
+                  activations=len(log), releases=sum(1 for a in log if a.released),
+                  reward=total(a.reward or 0.0 for a in paid),
+                  reward_extrinsic=total(a.extrinsic or 0.0 for a in paid), penalty=penalty,
+                  liking_mean=total(a.liking for a in log) / len(log),
+                  period_mean=total(a.period for a in log) / len(log),
                   **self.swept, **added)
 
     def _cover(self, phase: str, path: Values) -> None:
@@ -125,7 +127,7 @@ class Recorder:
         columns = self.tables["cycles"]
         rows: dict[str, Any] = {"run": [self.run_columns["run"]] * n, "phase": [phase] * n, "episode": [episode] * n,
                 "cycle": range(n), "x_m": path[:, 0], "y_m": path[:, 1], "heading_rad": path[:, 2],
-                "v_m_s": np.hypot(path[:, 0] - before[:, 0], path[:, 1] - before[:, 1]) / dt, "w_rad_s": turn / dt,
+                "v_m_s": _lengths(path[:, 0] - before[:, 0], path[:, 1] - before[:, 1]) / dt, "w_rad_s": turn / dt,
                 "hunger": needs.get("hunger", [None] * n), "thirst": needs.get("thirst", [None] * n),
                 "energy": energy, "wanting": wanting,
                 **{name: [None] * n if values is None else values for name, values in safeties.items()}}
@@ -182,8 +184,13 @@ def _check_energy(body: Body, moments: Values, lengths: Values) -> None:
     feeding = [i for i, need in enumerate(body.needs) if need.feeds_energy]
     if not any(body.needs[i].per_cycle for i in feeding):
         balance = moments[:, 2] + moments[:, [3 + i for i in feeding]].sum(axis=1)
-        growth = sum(body.needs[i].per_activation for i in feeding)
+        growth = total(body.needs[i].per_activation for i in feeding)
         check_balance(balance, body.e_u, body.e_nb, growth, moments[1:, 1], lengths)
+
+
+def _lengths(x: Values, y: Values) -> Values:
+    """Of vectors (x, y), elementwise; not np.hypot, which is the C library's."""
+    return np.sqrt(x * x + y * y)
 
 
 def _of(name: str, values: Values | None) -> dict[str, float | None]:

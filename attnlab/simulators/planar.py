@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, hypot, sin
+from math import cos, sin
 
 import numpy as np
 
+from attnlab.arithmetic import length
 from attnlab.errors import ConfigError
 from attnlab.registry import register
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
@@ -83,4 +84,4 @@ class Planar(Simulator):
 def _row(solid: Solid) -> tuple[float, ...]:
     half_length, half_width = solid.length_m / 2, solid.width_m / 2
     return (solid.x_m, solid.y_m, cos(solid.yaw_rad), sin(solid.yaw_rad), half_length, half_width,
-            hypot(half_length, half_width))
+            length(half_length, half_width))

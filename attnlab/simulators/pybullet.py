@@ -8,10 +8,11 @@ import os
 import weakref
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import cos, hypot, pi, sin
+from math import cos, pi, sin
 from types import ModuleType
 from typing import Any, Literal
 
+from attnlab.arithmetic import length, total
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
@@ -77,7 +78,7 @@ class PyBullet(Simulator):
         self._ray_to = [(x + c * (o + reach), y + s * (o + reach), z) for x, y, c, s, o in BEAMS]
         self._beams = [(o, o + reach) for *_, o in BEAMS]
         self._pose = (0.0, 0.0, 0.0)
-        reach = 10.0 + hypot(self.layout.width_m, self.layout.depth_m)
+        reach = 10.0 + length(self.layout.width_m, self.layout.depth_m)
         self._camera: Rays | Segmentation
         if params.camera == "rays":
             self._camera = Rays(p, self._client, self.camera, self._base_z, RAY_GROUP, self._surfaces, reach)
@@ -125,8 +126,8 @@ class PyBullet(Simulator):
     def blobs(self) -> list[Blob]:
         cam, solids, blobs = self.camera, self.layout.solids, []
         for body, columns in self._camera.look(*self._pose, self._robot, list(self._cubes)).items():
-            area = sum(columns)
-            centre = sum((i + 0.5) * n for i, n in enumerate(columns)) / area
+            area = int(total(columns))
+            centre = total((i + 0.5) * n for i, n in enumerate(columns)) / area
             height, bearing, index = max(columns), cam.bearing(centre), self._cubes[body]
             blobs.append(Blob(solids[index].kind, bearing, height, area, cam.distance(height, bearing), index))
         return blobs

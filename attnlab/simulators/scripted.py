@@ -5,9 +5,10 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass
 from itertools import pairwise
-from math import dist, pi
+from math import pi
 from pathlib import Path
 
+from attnlab.arithmetic import distance
 from attnlab.errors import ConfigError
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -59,7 +60,7 @@ class Scripted(Simulator):
     def hand(self) -> tuple[float, float]:
         """(distance m, speed m/s) of the hand now; the speed is the mean over the last cycle."""
         now, before = self.at(self.cycle * self.dt_s), self.at((self.cycle - 1) * self.dt_s)
-        return dist(now, (0.0, 0.0, 0.0)), dist(now, before) / self.dt_s
+        return distance(now, (0.0, 0.0, 0.0)), distance(now, before) / self.dt_s
 
     def sonar(self, count: int = len(SONARS)) -> list[float]:
         return [self.params.sonar_range_m] * count

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, hypot, sin
+from math import cos, sin
 
 import numpy as np
 import numpy.typing as npt
+
+from attnlab.arithmetic import length
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,7 @@ def distance(x: float, y: float, solid: Solid) -> float:
     c, s = cos(solid.yaw_rad), sin(solid.yaw_rad)
     dx, dy = x - solid.x_m, y - solid.y_m
     along, across = abs(c * dx + s * dy) - solid.length_m / 2, abs(-s * dx + c * dy) - solid.width_m / 2
-    return hypot(max(along, 0.0), max(across, 0.0))
+    return length(max(along, 0.0), max(across, 0.0))
 
 
 def clearance(x: float, y: float, solids: tuple[Solid, ...]) -> float:
@@ -49,7 +51,7 @@ def clearances(xy: npt.NDArray[np.float64], solids: tuple[Solid, ...]) -> npt.ND
         dx, dy = xy[:, 0] - solid.x_m, xy[:, 1] - solid.y_m
         along = np.maximum(np.abs(c * dx + s * dy) - solid.length_m / 2, 0.0)
         across = np.maximum(np.abs(-s * dx + c * dy) - solid.width_m / 2, 0.0)
-        np.minimum(nearest, np.hypot(along, across), out=nearest)
+        np.minimum(nearest, np.sqrt(along * along + across * across), out=nearest)
     return nearest
 
 

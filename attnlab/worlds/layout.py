@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import combinations
-from math import atan2, hypot
+from math import atan2
 from typing import Any, Literal, TypedDict
 
 from attnlab import registry
+from attnlab.arithmetic import length
 from attnlab.errors import ConfigError
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -102,7 +103,7 @@ class WrittenLayout(World):
         """The checked layout; ConfigError if a box is outside, two overlap, or no start is free."""
         p = self.params
         boxes = [Solid(b.kind, b.x_m, b.y_m, b.size_m, b.size_m, b.yaw_rad) for b in p.boxes]
-        inner = [Solid("wall", (w.x1_m + w.x2_m) / 2, (w.y1_m + w.y2_m) / 2, hypot(w.x2_m - w.x1_m, w.y2_m - w.y1_m),
+        inner = [Solid("wall", (w.x1_m + w.x2_m) / 2, (w.y1_m + w.y2_m) / 2, length(w.x2_m - w.x1_m, w.y2_m - w.y1_m),
                        w.thickness_m, atan2(w.y2_m - w.y1_m, w.x2_m - w.x1_m)) for w in p.walls]
         for group, given in (("boxes", boxes), ("walls", inner)):
             for i, solid in enumerate(given):

@@ -13,6 +13,12 @@ def test_digamma(x):
     assert f.digamma(x) == pytest.approx(digamma(x), rel=1e-12, abs=1e-12)
 
 
+@pytest.mark.parametrize("x", [1e-9, 1e-3, 0.1, 0.5, 1.0, 1.4616, 2.0, 3.3, 7.999, 8.0, 12.0, 1e4, 1e9])
+def test_lgamma(x):
+    from scipy.special import gammaln
+    assert f.lgamma(x) == pytest.approx(gammaln(x), rel=1e-14, abs=1e-13)
+
+
 def test_dirichlet_surprise_by_hand():
     a = [2, 3, 1, 4, 1, 1]
     assert f.dirichlet_surprise(a, 0, "prior_post") == pytest.approx(0.228118, abs=5e-7)

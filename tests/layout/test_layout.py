@@ -15,7 +15,7 @@ PACKAGE = ROOT / "attnlab"
 # Rooms (packages, and modules at the top) from the ground up. A room imports from floors below its own, and from none
 # beside it.
 FLOORS = (
-    ("__init__", "errors", "equations", "streams", "paths", "kernels"),
+    ("__init__", "errors", "arithmetic", "equations", "streams", "paths", "kernels"),
     ("settings", "groups", "console"),
     ("registry", "reading"),
     ("worlds", "needs", "exploration", "fusion", "loading"),
@@ -38,8 +38,8 @@ FLOORS = (
     ("certify", "appraise", "fig1", "plot", "parts", "new", "api", "__main__"),
 )
 TOP = {  # modules that are no commands
-    "__init__", "api", "attention", "config", "console", "cycle", "equations", "errors", "groups", "loading", "paths",
-    "plot", "reading", "registry", "settings", "streams"}
+    "__init__", "api", "arithmetic", "attention", "config", "console", "cycle", "equations", "errors", "groups",
+    "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
 COMMANDS = {"__main__", "fig1", "new", "parts"}  # thin modules for python -m; the others are packages with __main__
 NO_CODE = {"plugins", "templates"}
 ROBOT = {"robot", "attention", "cycle"}

@@ -1,0 +1,49 @@
+"""Short planar runs, some of each part, and their digests: ``python short_runs.py`` prints them as JSON on any Python.
+
+``python short_runs.py --write`` makes them the golden ones: do that when a change is meant to change numbers, never
+otherwise.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from attnlab.testing import config
+from attnlab.testing.digest import digest
+
+GOLDEN = Path(__file__).with_name("golden.json")
+CURIOSITIES = ("none", "additive", "composed", "count", "habituation", "information_gap", "learning_progress",
+               "litman_gap", "litman_itti", "novelty_decay", "novelty_window", "optimal_arousal", "prediction_error",
+               "salience", "surprise", "surprise_poisson", "surprise_reverse")
+LEARNERS = ("sarsa", "expected_sarsa", "double_q", "q_lambda", "monitor", "fixed_4", "random", "always_on")
+EXPLORATIONS = ("epsilon_greedy", "greedy", "ucb1", "annealed")
+READINGS = {"safety_distance": {"crash": "safety_distance"}, "same_states": {"non_curious": "same_states"},
+            "clipped": {"energy_clipped": True, "needs_floored": True, "energy_death": True},
+            "smdp": {"q_update": "smdp"}, "respawn": {"food_supply": "respawn", "penalised": "all"}}
+
+RUNS = {
+    "paper": config(max_cycles=1150),
+    **{f"curiosity={name}": config(curiosity=name, max_cycles=500) for name in CURIOSITIES},
+    **{f"learner={name}": config(learner=name, max_cycles=500) for name in LEARNERS},
+    **{f"exploration={name}": config(exploration=name, max_cycles=500) for name in EXPLORATIONS},
+    **{f"reading={name}": config(how=how, curiosity="none" if name == "same_states" else "litman", max_cycles=500)
+       for name, how in READINGS.items()},
+    "fusion=mean": config(fusion="mean", max_cycles=500),
+    "behaviours=avoid,wander,rest": config(behaviours=("avoid", "wander", "rest"), max_cycles=500),
+    "simulator=scripted": config(simulator="scripted", behaviours=("give",), needs="energy_only"),
+}
+
+
+def digests() -> dict[str, str]:
+    from attnlab.robot.episodes import play_run
+    from attnlab.robot.plan import RunPlan
+    return {name: digest(play_run(RunPlan(settings))[0]) for name, settings in RUNS.items()}
+
+
+if __name__ == "__main__":
+    text = json.dumps(digests(), indent=1) + "\n"
+    if sys.argv[1:] == ["--write"]:
+        GOLDEN.write_text(text)
+    print(text, end="")
