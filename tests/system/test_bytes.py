@@ -47,7 +47,7 @@ def test_nothing_that_runs_a_robot_uses_what_differs():
 
 
 def digests(python: str, **variables: str) -> dict[str, str]:
-    done = subprocess.run([python, str(ROOT / "tests/system/short_runs.py")], capture_output=True, text=True,
+    done = subprocess.run([python, short_runs.__file__], capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": str(ROOT), **variables}, timeout=600)
     assert done.returncode == 0, done.stderr[-2000:]
     found: dict[str, str] = json.loads(done.stdout)
