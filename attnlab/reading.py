@@ -27,16 +27,18 @@ class Reading:
     energy_carry_over: bool = setting(False, "start an episode with the energy the last one ended with; a robot that "
                                       "died starts with energy_start")
     energy_death: bool = setting(False, "die when energy falls below energy_min")
-    energy_clipped: bool = setting(False, "is energy cut at energy_max; ours, as eq 10 has it: no")
+    energy_clipped: bool = setting(False, "is energy cut at energy_max: no, as eq 10 is written (ours); true: a full "
+                                   "robot gains nothing from a meal")
     energy_min: float = setting(300.0, "E_min of Table 4", unit="UoE", low=0)
     # needs
     need_k: float = setting(1.0, "k of eqs 5, 6: growth of a need for each active behaviour", unit="UoE", low=0)
     need_start: float = setting(300.0, "hunger and thirst at the start of an episode", unit="UoE", low=0)
     need_max: float = setting(1500.0, "largest hunger and thirst, sigma_max of EAT and DRINK", unit="UoE", above=0)
-    need_min: float = setting(300.0, "sigma_min of EAT and DRINK in Table 4: eqs 8, 9 have none; the lowest percept "
-                              "with percept_domain=min_to_max", unit="UoE", low=0)
+    need_min: float = setting(300.0, "sigma_min of EAT and DRINK in Table 4: eqs 8, 9 have none, and nothing else "
+                              "uses it but percept_domain=min_to_max, where it is the lowest percept", unit="UoE", low=0)
     need_death: bool = setting(True, "die when hunger or thirst reaches need_max")
-    needs_floored: bool = setting(False, "are hunger and thirst cut at 0; ours, as eqs 5, 6 have it: no")
+    needs_floored: bool = setting(False, "are hunger and thirst cut at 0: no, as eqs 5, 6 are written (ours); true: a meal "
+                                  "fills no more than the need there is")
     active: Literal["fired", "released"] = setting(
         "fired", "whom eqs 5, 6, 10 count as active: whose clock fired (ours), or only those whose motor schema was on")
     releaser_threshold: float = setting(300.0, "EAT and DRINK are released at this need (the text says sigma_max)",
@@ -83,8 +85,10 @@ class Reading:
         "keeps_side", "AVOID's turn: the sum over active sonars, but once blocked it keeps to the side it chose "
         "(ours), or the sum alone (the paper's)")
     food_reach_m: float = setting(0.75, "a source is consumed when its blob looks nearer than this to the centre; "
-                                  "ours, the paper has none", unit="m", above=0)
-    meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind; ours, the paper has none: 1",
+                                  "ours, the paper has none: EAT rests at 0.6 m; 1.0 m, where it slows down, is the "
+                                  "other end", unit="m", above=0)
+    meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind; ours, the paper has none: 1 is "
+                                      "a meal at every look",
                                         unit="mc", low=1)
     food_supply: Literal["endless", "depletion", "respawn"] = setting(
         "endless", "sources are endless, empty after food_portions meals (depletion), or fill again after "

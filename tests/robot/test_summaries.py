@@ -8,8 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from attnlab.robot.episode import run_episode
+from attnlab.robot.plan import RunPlan
 from attnlab.robot.summaries import bouts, distances, guard_of, safety, safety_held, turning
-from attnlab.testing import run
+from attnlab.testing import config, run
 from attnlab.worlds.base import Layout, outer_walls
 
 
@@ -63,6 +65,38 @@ def test_rewards_are_told_without_penalties():
     rows = tables["behaviours"]
     assert "hunger" in tables["episodes"]["death"] and min(rows["penalty"]) == -1500.0
     assert min(rows["reward_extrinsic"]) >= 0.0
+
+
+def lived(need_start=300.0, **how):
+    """The activations of an episode of random clocks, by behaviour."""
+    settings = {"max_cycles": 600, "curiosity": "none", "learner": "random", "seed": 3}
+    plan = RunPlan(config(how={"need_start": need_start, **how}, **settings))
+    agent = plan.agent(plan.simulator())
+    run_episode(agent, plan.exploration("train"), plan.start_pose("train", 0), False)
+    return {attention.behaviour.name: list(attention.log) for attention in agent.attentions}
+
+
+@pytest.mark.parametrize("sigma_min", [0.4, 0.0])
+def test_a_robot_that_drives_is_paid_by_eq_7_with_table_4s_sigma_min(sigma_min):
+    """Some of what AVOID perceives is nearer than 0.4 m: those looks earn their period's term alone."""
+    looks = lived(reward_sigma_min_m=sigma_min)["avoid"]
+    near = 0
+    for before, now in zip(looks, looks[1:], strict=False):
+        place = max(0.0, (now.sigma - sigma_min) / (1.0 - sigma_min))
+        assert now.extrinsic == pytest.approx(0.5 * ((before.period - 1) / 11 + place))
+        near += now.sigma < 0.4
+    assert near > 5 and any(a.sigma > 0.5 for a in looks)
+
+
+@pytest.mark.parametrize("need", ["eat", "drink"])
+def test_eqs_8_and_9_have_no_sigma_min(need):
+    """need_min changes no reward of theirs: it is the lowest percept with percept_domain=min_to_max, or nothing."""
+    looks = lived(need_start=100.0)[need]
+    assert looks == lived(need_start=100.0, need_min=700.0)[need] and looks[0].sigma < 300
+    for before, now in zip(looks, looks[1:], strict=False):
+        assert now.extrinsic == pytest.approx(0.5 * ((before.period - 1) / 11 + 1 - now.sigma / 1500))
+    cut = lived(need_start=100.0, percept_domain="min_to_max")[need]
+    assert min(a.sigma for a in cut) == 300.0
 
 
 def test_energy_and_needs_may_be_cut():
