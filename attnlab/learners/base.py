@@ -32,9 +32,10 @@ class LearnerContext:
 
 
 class Outcome(NamedTuple):
-    """How an episode went: machine cycles lived, those with somebody active, and the most there could be."""
+    """How an episode went: machine cycles lived, how often a behaviour was active in them (each counts, as eqs 5, 6 and
+    10 charge them), and the most cycles there could be."""
     cycles: int
-    active_cycles: int
+    active: int
     max_cycles: int
 
 

@@ -23,19 +23,21 @@ class Evolution(Monitor):
     Evolution (Storn & Price 1997, J. Global Optim. 11:341; scipy's) searches lowest, highest and bend of each
     behaviour's linear function.
 
-    Fitness, ours, is the outcome of episodes in the run's own world: mean survival - look_cost * mean share of cycles
-    with somebody active. All candidates play the same start poses (stream ``start/evolution``). It happens before the
-    first training episode, which learn nothing any more. The defaults play (8 + 1) * 18 * 3 = 486 episodes, about what
-    the others train. Every evaluation is kept in the run's folder (``evolution.jsonl``): an interrupted run goes on
-    where it was. What was found is in ``evolved.yaml``. Draws from ``evolution`` and numpy's generator seeded by it.
+    Fitness, ours, is the outcome of episodes in the run's own world: mean survival - look_cost * mean activity, every
+    active behaviour of every cycle charged, as eqs 5, 6 and 10 do, over what there would be if all always were. All
+    candidates play the same start poses (stream ``start/evolution``). It happens before the first training episode,
+    which learn nothing any more. The defaults play (8 + 1) * 18 * 20 = 3240 episodes, many more than the others train;
+    ``population=5 generations=4`` plays 500. Every evaluation is kept in the run's folder (``evolution.jsonl``): an
+    interrupted run goes on where it was. What was found is in ``evolved.yaml``. Draws from ``evolution`` and numpy's
+    generator seeded by it.
     """
 
     @dataclass
     class Params:
         generations: int = setting(8, "after the first", low=0, high=100_000)
         population: int = setting(18, "candidates in a generation", low=5, high=10_000)
-        episodes: int = setting(3, "that each candidate plays", unit="episodes", low=1, high=10_000)
-        look_cost: float = setting(0.1, "what looking in every cycle costs, in units of survival", low=0)
+        episodes: int = setting(20, "that each candidate plays", unit="episodes", low=1, high=10_000)
+        look_cost: float = setting(0.1, "what it costs when all behaviours look in every cycle, in units of survival", low=0)
         workers: int = setting(1, "processes; 0 for one a core", low=0, high=1024)
         default: Function = setting(Function(), "hand-set start, and the function of behaviours not named below")
         behaviours: dict[str, Any] = setting({"eat": dict(SATISFY), "drink": dict(SATISFY)},
@@ -69,7 +71,7 @@ def evolve(params: Evolution.Params, play: Rehearse) -> dict[str, dict[str, Any]
 
     def costs(_: Callable[..., float], genomes: Iterable[Iterable[float]]) -> list[float]:
         candidates = [candidate(map(float, genome), play.behaviours) for genome in genomes]
-        return [cost(outcomes, params.look_cost)
+        return [cost(outcomes, params.look_cost, len(play.behaviours))
                 for outcomes in play(candidates, params.episodes, JOURNAL, params.workers)]
     result = differential_evolution(_unused, bounds, init=first, maxiter=params.generations, tol=0, polish=False,
                                     updating="deferred", workers=costs, seed=draw.getrandbits(32))
@@ -81,11 +83,11 @@ def candidate(genome: Iterable[float], behaviours: list[str]) -> dict[str, Any]:
     return {"name": "monitor", "behaviours": functions_of(genome, behaviours)}
 
 
-def cost(outcomes: list[Outcome], look_cost: float) -> float:
-    """look_cost * active share - survival, both means over episodes."""
+def cost(outcomes: list[Outcome], look_cost: float, behaviours: int) -> float:
+    """look_cost * share of all possible activity - survival, both means over episodes."""
     total = 0.0
     for lived in outcomes:
-        total += look_cost * lived.active_cycles / lived.cycles - lived.cycles / lived.max_cycles
+        total += look_cost * lived.active / (lived.cycles * behaviours) - lived.cycles / lived.max_cycles
     return total / len(outcomes)
 
 

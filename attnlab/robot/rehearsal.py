@@ -126,5 +126,6 @@ def play(candidate: str) -> list[Outcome]:
     exploration, outcomes = plan.exploration("train"), []
     for episode in range(episodes):
         history, _, _ = run_episode(agent, exploration, plan.start_pose("evolution", episode), False)
-        outcomes.append(Outcome(agent.simulator.cycle, len(history) - 1, agent.max_cycles))
+        active = sum(moment[1] for moment in history)
+        outcomes.append(Outcome(agent.simulator.cycle, int(active), agent.max_cycles))
     return outcomes

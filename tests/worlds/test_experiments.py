@@ -25,7 +25,7 @@ def test_generations_are_files_that_name_parts():
     for name in params("generations")["+generation"]:
         node = yaml.safe_load((conf_dir() / "generation" / f"{name}.yaml").read_text())
         chosen = {key.removeprefix("override /"): value for entry in node["defaults"] for key, value in entry.items()}
-        assert set(chosen) == {"learner", "curiosity"}
+        assert set(chosen) == {"learner", "curiosity"} and set(node) <= {"defaults", "learner"}  # settings of it
         assert all(registry.find(group, option) for group, option in chosen.items())
 
 
