@@ -34,11 +34,11 @@ class Reading:
     need_k: float = setting(1.0, "k of eqs 5, 6: growth of a need for each active behaviour", unit="UoE", low=0)
     need_start: float = setting(300.0, "hunger and thirst at the start of an episode", unit="UoE", low=0)
     need_max: float = setting(1500.0, "largest hunger and thirst, sigma_max of EAT and DRINK", unit="UoE", above=0)
-    need_min: float = setting(300.0, "sigma_min of EAT and DRINK in Table 4: eqs 8, 9 have none, and nothing else "
-                              "uses it but percept_domain=min_to_max, where it is the lowest percept", unit="UoE", low=0)
+    need_min: float = setting(300.0, "sigma_min of EAT and DRINK in Table 4: eqs 8, 9 have none, and nothing uses it "
+                              "but percept_domain=min_to_max, where it is the lowest percept", unit="UoE", low=0)
     need_death: bool = setting(True, "die when hunger or thirst reaches need_max")
-    needs_floored: bool = setting(False, "are hunger and thirst cut at 0: no, as eqs 5, 6 are written (ours); true: a meal "
-                                  "fills no more than the need there is")
+    needs_floored: bool = setting(False, "are hunger and thirst cut at 0: no, as eqs 5, 6 are written (ours); true: a "
+                                  "meal fills no more than the need there is")
     active: Literal["fired", "released"] = setting(
         "fired", "whom eqs 5, 6, 10 count as active: whose clock fired (ours), or only those whose motor schema was on")
     releaser_threshold: float = setting(300.0, "EAT and DRINK are released at this need (the text says sigma_max)",

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from attnlab.config import RunSettings
+from attnlab.launch import robots
 from attnlab.launch.jobs import OTHER_CODE, Job, split
 from attnlab.launch.progress import Display
 from attnlab.registry import make
@@ -64,6 +65,8 @@ def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
     episodes = sum(job.episodes for job in todo)
     print(f"{folder}: {len(todo)} run{'s' * (len(todo) > 1)}, {episodes:,} episodes, "
           f"{cluster.at_once(todo)} at a time", flush=True)
+    if line := robots.at_start(todo):
+        print(line, flush=True)
     with Display(len(todo), episodes) as display:
         cluster.run(todo, display)
     return display.failed
@@ -86,8 +89,7 @@ def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Seque
         page = _report(folder, settings)
         made |= {"report": page} if page else {}
     hints = {} if settings.report else {"next": f"python -m attnlab.report {shlex.quote(str(folder))}"}
-    if settings.simulator["name"] == "planar":
-        hints["on pybullet"] = "python -m attnlab " + shlex.join(_on_pybullet(typed, folder.name))
+    hints |= robots.at_end(jobs, as_typed(typed))
     others = len(study.complete) - len(named)
     if others:
         hints["mind"] = (f"{folder} holds {others} more run{'s' * (others > 1)} of other settings, which the picture "
@@ -98,12 +100,6 @@ def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Seque
 def as_typed(typed: Sequence[str]) -> list[str]:
     """Arguments as they may be typed again, runs of seeds as such."""
     return [f"seed={compact(seeds('seed', a.partition('=')[2]))}" if a.startswith("seed=") else a for a in typed]
-
-
-def _on_pybullet(typed: Sequence[str], study: str) -> list[str]:
-    """The same arguments for the other robot."""
-    kept = [argument for argument in as_typed(typed) if not argument.startswith(("simulator=", "study="))]
-    return [*kept, "simulator=pybullet", f"study={study}_pybullet"]
 
 
 def _report(folder: Path, settings: RunSettings) -> Path | None:

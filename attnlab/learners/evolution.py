@@ -37,7 +37,7 @@ class Evolution(Monitor):
         generations: int = setting(8, "after the first", low=0, high=100_000)
         population: int = setting(18, "candidates in a generation", low=5, high=10_000)
         episodes: int = setting(20, "that each candidate plays", unit="episodes", low=1, high=10_000)
-        look_cost: float = setting(0.1, "what it costs when all behaviours look in every cycle, in units of survival", low=0)
+        look_cost: float = setting(0.1, "what it costs that all look in every cycle, in units of survival", low=0)
         workers: int = setting(1, "processes; 0 for one a core", low=0, high=1024)
         default: Function = setting(Function(), "hand-set start, and the function of behaviours not named below")
         behaviours: dict[str, Any] = setting({"eat": dict(SATISFY), "drink": dict(SATISFY)},

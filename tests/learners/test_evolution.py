@@ -52,7 +52,8 @@ def test_what_is_active_is_what_the_body_is_charged():
 
 
 def test_the_default_budget_and_the_learners():
-    default, small = Evolution.Params(), yaml.safe_load((conf_dir() / "generation/evolved_500.yaml").read_text())["learner"]
+    default, file = Evolution.Params(), conf_dir() / "generation" / "evolved_500.yaml"
+    small = yaml.safe_load(file.read_text())["learner"]
     assert default.episodes == 20
     assert (small["generations"] + 1) * small["population"] * default.episodes == 500
 

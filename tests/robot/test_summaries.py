@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -81,7 +82,7 @@ def test_a_robot_that_drives_is_paid_by_eq_7_with_table_4s_sigma_min(sigma_min):
     """Some of what AVOID perceives is nearer than 0.4 m: those looks earn their period's term alone."""
     looks = lived(reward_sigma_min_m=sigma_min)["avoid"]
     near = 0
-    for before, now in zip(looks, looks[1:], strict=False):
+    for before, now in pairwise(looks):
         place = max(0.0, (now.sigma - sigma_min) / (1.0 - sigma_min))
         assert now.extrinsic == pytest.approx(0.5 * ((before.period - 1) / 11 + place))
         near += now.sigma < 0.4
@@ -93,7 +94,7 @@ def test_eqs_8_and_9_have_no_sigma_min(need):
     """need_min changes no reward of theirs: it is the lowest percept with percept_domain=min_to_max, or nothing."""
     looks = lived(need_start=100.0)[need]
     assert looks == lived(need_start=100.0, need_min=700.0)[need] and looks[0].sigma < 300
-    for before, now in zip(looks, looks[1:], strict=False):
+    for before, now in pairwise(looks):
         assert now.extrinsic == pytest.approx(0.5 * ((before.period - 1) / 11 + 1 - now.sigma / 1500))
     cut = lived(need_start=100.0, percept_domain="min_to_max")[need]
     assert min(a.sigma for a in cut) == 300.0

@@ -19,9 +19,10 @@ def no_pybullet(monkeypatch):
 
 
 @pytest.mark.usefixtures("no_pybullet")
-@pytest.mark.parametrize("typed", ["simulator=pybullet", "validation.simulator=pybullet"])
+@pytest.mark.parametrize("typed", ["simulator=pybullet", "validation.simulator=pybullet",
+                                   "+experiment=cr_vs_ncr"])
 def test_what_needs_it_says_so_before_anything_runs(complain, typed):
-    code, err, written = complain(*SHORT, *([] if typed.startswith("simulator") else ["simulator=planar"]), typed)
+    code, err, written = complain(*SHORT, *(["simulator=planar"] if typed.startswith("valid") else []), typed)
     assert code == 2 and written == []
     lines = err.strip().splitlines()
     assert len(lines) == 1
