@@ -89,7 +89,7 @@ def _context(jobs: Sequence[Job]) -> Context:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     heavy = ["attnlab.kernels.planar"] if any(job.config["simulator"].get("name") == "planar" for job in jobs) else []
-    context.set_forkserver_preload(["attnlab.launch.worker", "pyarrow.parquet", "omegaconf", *heavy])
+    context.set_forkserver_preload(["attnlab.launch.preload", *heavy])
     return context
 
 
