@@ -47,13 +47,14 @@ def markdown(frame: pd.DataFrame) -> str:
     return "\n".join(lines)
 
 
-def write(table: pd.DataFrame, probed: Mapping[str, pd.DataFrame], names: Sequence[str], out: Path) -> list[Path]:
-    """The three files."""
+def write(table: pd.DataFrame, probed: Mapping[str, pd.DataFrame], names: Sequence[str], out: Path, what: str
+          ) -> list[Path]:
+    """The three files. ``what``: was shown to the models."""
     together, signals = correlations(table, names), summary(table, probed, names)
     text = "\n\n".join([
         "# What models of curiosity make of the same percepts",
         f"{len(table) // len(names)} looks of {table['behaviour'].nunique()} behaviours. Wanting, liking, its standard "
-        "deviation and the share of looks at level HH are over the recorded episode. The other columns are likings in "
+        f"deviation and the share of looks at level HH are over {what}. The other columns are likings in "
         "the probes: the first 10 of the same view, its 81st to 100th, the first two looks at a new object after 100 "
         "at another, the mean of percepts at random and of percepts in a fixed order, after 100 looks.",
         markdown(signals), "## Rank correlation of the likings",

@@ -9,13 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 from attnlab import registry
 from attnlab.curiosity.base import CuriosityContext
+from attnlab.equations import percept_bin
 from attnlab.errors import ConfigError, nearest
+from attnlab.logs.file import Log
+from attnlab.logs.sonars import nearest_ahead, ring
 from attnlab.reading import Reading
 from attnlab.streams import stream
 
 if TYPE_CHECKING:
     import pandas as pd
 
+SONAR_RANGE_M = 5.0  # of a silent sonar
 NOT_A_SIGNAL = ("composed", "additive")  # litman's, unless their settings say otherwise
 
 
@@ -89,6 +93,20 @@ def recorded(cycles: pd.DataFrame, behaviours: Sequence[str], energy_start: floa
         for name in behaviours:
             if cycles[f"{name}_active"].iat[i]:
                 yield View(name, cycle, int(cycles[f"{name}_percept"].to_numpy()[i]) - 1, energies[i], poses[i])
+
+
+def logged(log: Log, reading: Reading) -> Iterator[View]:
+    """A view a scan of a log: AVOID's percept is the nearest of the eight frontal sonars, m from the log's sensor. A
+    scan in which none of them heard anything valid is counted in the log's ledger."""
+    low = reading.avoid_sigma_min_m if reading.percept_domain == "min_to_max" else 0.0
+    high = reading.avoid_sigma_max_m
+    for cycle, scan in enumerate(log):
+        near = nearest_ahead(scan)
+        if near is None:
+            log.ledger.skip("scan in which no frontal sonar is valid", f"scan {cycle + 1}")
+            continue
+        percept = percept_bin(min(high, max(low, near)), low, high, reading.percept_bins)
+        yield View("avoid", cycle, percept, reading.energy_start, scan.pose, tuple(ring(scan, SONAR_RANGE_M)))
 
 
 def probes(bins: int, energy: float) -> dict[str, list[View]]:

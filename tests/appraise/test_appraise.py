@@ -9,6 +9,7 @@ from attnlab.errors import ConfigError
 from attnlab.robot.folder import run_to_folder
 from attnlab.testing import config
 from attnlab.testing.build import reading
+from tests.logs import made
 
 
 @pytest.fixture(scope="module")
@@ -72,3 +73,27 @@ def test_mistakes_are_one_line(folder, tmp_path):
         main([str(folder), "--curiosity", "litmann"])
     with pytest.raises(ConfigError, match="no complete run"):
         main([str(tmp_path)])
+
+
+def test_a_log_is_appraised_as_it_was_recorded(tmp_path, monkeypatch, capsys):
+    """Three looks of AVOID: 0.5 m, 0.7 m, 0.25 m are percepts 4, 5, 2 of six; the first views are the newest."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "drive.csv").write_bytes(made.csv())
+    assert main(["--log", "drive.csv", "--curiosity", "litman,habituation"]) == 0
+    table = pd.read_csv(tmp_path / "outputs" / "appraisal-drive" / "appraisal.csv")
+    assert table.loc[table["curiosity"] == "litman", "percept"].tolist() == [4, 5, 2]
+    assert table["liking"].between(0, 1).all() and (table["wanting"] == 1.0).all()
+    assert "over drive.csv, looked at in every cycle" in (
+        tmp_path / "outputs" / "appraisal-drive" / "appraisal.md").read_text()
+
+
+@pytest.mark.parametrize(("arguments", "problem"), [
+    ([], "name a run's folder, or a log by --log FILE"), (["run", "--log", "a"], "a run and a log were given"),
+    (["run", "--set", "hole_s=1"], "--set: is for a log"), (["--log", "none.csv"], "there is no file none.csv"),
+    (["--log", "empty.csv"], "holds no scan that can be used. 1 x scan without a valid beam")])
+def test_what_is_shown_must_be_one_thing_and_there(arguments, problem, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty.csv").write_text("t_s,r0\n1,nan\n")
+    with pytest.raises(ConfigError, match=problem):
+        main(arguments)
+    assert not (tmp_path / "outputs").exists()

@@ -20,7 +20,7 @@ FLOORS = (
     ("registry", "reading"),
     ("worlds", "needs", "exploration", "fusion", "loading"),
     ("simulators", "learners", "config"),
-    ("behaviours", "tables"),
+    ("behaviours", "tables", "logs"),
     ("curiosity", "penalty"),
     ("attention",),
     ("cycle", "probes"),
