@@ -25,10 +25,13 @@ if TYPE_CHECKING:
 class Rewards(Figure):
     """Cumulative rewards along training, a panel a behaviour and one for all.
 
-    Penalties of -1500 would flatten everything else, so an axis ends a little below the bulk and says so.
+    Drawn thick, with the band: the extrinsic part, on which scale all are paid alike, with penalties as eqs 7-9 have
+    them. Thin: the same without penalties. Dotted: what CR learns from, eq 4's mixture, where it differs. Penalties of
+    -1500 would flatten everything else, so an axis ends a little below the bulk and says so.
     """
     title, order, place = "cumulative rewards", 70, "Fig 7"
-    how = "CR is paid on another scale (eq 4), so its extrinsic part is drawn too."
+    how = ("Thick: the extrinsic part of the reward, on which scale CR and NCR are paid alike, with the penalties of "
+           "eqs 7-9; thin: the same without them; dotted: the mixture of eq 4, with penalties, where it differs.")
 
     def draw(self, conditions: Conditions) -> Drawing:
         drawn, note = rows_of_panels(conditions)
@@ -51,27 +54,30 @@ class Rewards(Figure):
         return figure
 
     def say(self, conditions: Conditions) -> str:
-        return validation(conditions, [("reward ", Reward(Reward.Params())),
-                                       ("extrinsic part ", Reward(Reward.Params(extrinsic=True)))], " UoR an episode")
+        return validation(conditions, [("extrinsic part ", Reward(Reward.Params(extrinsic=True))),
+                                       ("as mixed by eq 4 ", Reward(Reward.Params()))], " UoR an episode")
 
 
 def _lines(ax: Axes, panel: Panel, name: str | None, block: int) -> np.ndarray:
-    """Draw the lines of a panel; for all behaviours the extrinsic part apart where it differs. All block means."""
+    """Draw the lines of a panel; all block means that decide where its axis ends."""
     found = []
     for line in panel.lines:
+        behaviours = len(behaviours_of(line.runs, "train")) if name is None else 1
         series = {}
-        for column in ("reward", "reward_extrinsic"):
+        for column in ("reward_extrinsic", "reward", "penalty"):
             x, values = by_episode(line.runs, "behaviours", column, block, behaviour=name)
-            if name is None and len(x):
-                values = values * len(behaviours_of(line.runs, "train"))
-            series[column] = values
+            series[column] = values * behaviours  # by_episode has the mean over them
         if not len(x):
             continue
-        band(ax, x, series["reward"], line)
-        found.append(series["reward"].ravel())
-        if not np.allclose(series["reward"], series["reward_extrinsic"], equal_nan=True):
-            ax.plot(x, np.nanmean(series["reward_extrinsic"], axis=0), color=line.colour, lw=1.1, ls=":",
-                    label=f"{line.name}, extrinsic part")
+        extrinsic, paid = series["reward_extrinsic"], series["reward"]
+        band(ax, x, extrinsic + series["penalty"], line)
+        found += [extrinsic.ravel(), (extrinsic + series["penalty"]).ravel()]
+        if series["penalty"].any():
+            ax.plot(x, np.nanmean(extrinsic, axis=0), color=line.colour, lw=0.8, alpha=0.75,
+                    label=f"{line.name}, no penalties")
+        if not np.allclose(extrinsic, paid, equal_nan=True):
+            ax.plot(x, np.nanmean(paid + series["penalty"], axis=0), color=line.colour, lw=1.1, ls=":",
+                    label=f"{line.name}, eq 4")
     return np.concatenate(found) if found else np.zeros(0)
 
 

@@ -102,8 +102,10 @@ def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdi
         sections.append(section)
     if tables and telling is not None:
         html = "".join((f"<h3>{_escape(name)}</h3>" if name else "") + _table5(rows) for name, rows in tables[:4])
-        html += ("<p class=small>Mean ± standard deviation over validation episodes; here: mean over seeds, deviation "
-                 "over the episodes of all seeds. † The paper's text does not tell which of two cells this is.</p>")
+        html += ("<p class=small>Here: validation episodes that were survived, as all of the paper's were (its "
+                 "deviations hold no penalty): mean over seeds ± deviation over the episodes of a seed, as the paper's "
+                 "is over its episodes; in brackets that between seeds' means. All episodes: the others too, penalties "
+                 "of eqs 7-9 in the rewards. † The paper's text does not tell which of two cells this is.</p>")
         sections.append(Section("table5", "Table 5, side by side", html))
     if len(judged) > 1:
         write_bytes(target / "combinations.csv", multiverse.combinations_csv(conditions, judged))
@@ -141,7 +143,8 @@ def _escape(text: str) -> str:
 
 def _table5(rows: list[table5.Row]) -> str:
     labels = list(dict.fromkeys(row.condition for row in rows))
-    heads = ["", "unit", *(f"{label}, {what}" for label in labels for what in ("paper", "here", "difference"))]
+    heads = ["", "unit", *(f"{label}, {what}" for label in labels
+                           for what in ("paper", "here", "difference", "all episodes"))]
     body = []
     for quantity in dict.fromkeys(row.quantity for row in rows):
         mine = [row for row in rows if row.quantity == quantity]

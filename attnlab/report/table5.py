@@ -1,4 +1,8 @@
-"""Table 5 side by side: the paper, here, and the difference, for each role of the claims file."""
+"""Table 5 side by side: the paper, here, and the difference, for each role of the claims file.
+
+None of the paper's 100 validation episodes can have died: deviations of 2 and 9 hold no -1500. Its cells are compared
+on episodes that were survived; the other form, all episodes with penalties as eqs 7-9 have them, stands beside it.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +10,13 @@ import csv
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from attnlab.audit.table import Cell, Table
-from attnlab.measures.frames import means as run_means
-from attnlab.measures.frames import of_seeds, phase_rows, split
+from attnlab.measures.frames import of_seeds, phase_rows
 from attnlab.measures.once import once_a_study
-from attnlab.measures.rewards import sums
 from attnlab.results.conditions import Conditions, Runs
 
 UNITS = {"energy": "UoE", "safety": "0-1", "hunger": "UoE", "thirst": "UoE", "reward": "UoR",
@@ -24,13 +27,23 @@ NAMES = {"energy_max": "energy, largest", "energy_min": "energy, smallest", "ene
          "active_cycles": "cycles with an active behaviour"}
 
 
+class Here(NamedTuple):
+    """A cell as found: mean over seeds of their episode means, deviation over the episodes of a seed (root of the mean
+    variance; what the paper's is), and deviation between the seeds' means."""
+    mean: float
+    within: float
+    between: float
+
+
 @dataclass
 class Row:
-    """One cell of Table 5. ``here``: (mean over seeds of their episode means, deviation over episodes), or None."""
+    """One cell of Table 5. ``here``: over validation episodes that were survived, ``every``: over all of them, rewards
+    with penalties; None where there are none."""
     quantity: str
     condition: str
     paper: Cell | None
-    here: tuple[float, float] | None
+    here: Here | None
+    every: Here | None
     undecided: bool
 
     @property
@@ -44,7 +57,7 @@ class Row:
 
     @property
     def difference(self) -> float | None:
-        return self.here[0] - self.paper.mean if self.here and self.paper else None
+        return self.here.mean - self.paper.mean if self.here and self.paper else None
 
 
 def rows(table: Table, roles: Mapping[str, Runs]) -> list[Row]:
@@ -53,33 +66,43 @@ def rows(table: Table, roles: Mapping[str, Runs]) -> list[Row]:
     for quantity, cells in table.cells.items():
         for condition in table.conditions:
             runs = roles.get(condition)
-            here = _here(quantity, runs) if runs is not None and runs.runs else None
-            found.append(Row(quantity, condition, cells.get(condition), here,
+            here, every = (_here(quantity, runs, survived) if runs is not None and runs.runs else None
+                           for survived in (True, False))
+            found.append(Row(quantity, condition, cells.get(condition), here, every,
                              table.is_undecided(quantity, condition)))
     return found
 
 
-def _here(quantity: str, runs: Runs) -> tuple[float, float] | None:
-    import pandas as pd
-    means, values = (of_seeds(runs, of) for of in _by_run(runs.conditions, quantity))
-    episodes = pd.Series(np.concatenate(list(values.values()))) if values else pd.Series(dtype=float)
-    if episodes.isna().all():
+def _here(quantity: str, runs: Runs, survived: bool) -> Here | None:
+    cells = [cell for cell in of_seeds(runs, _by_run(runs.conditions, quantity, survived)).values()
+             if np.isfinite(cell[0])]
+    if not cells:
         return None
-    spread = episodes.std(ddof=1) if len(episodes) > 1 else float("nan")
-    return float(pd.Series(means).mean()), float(spread)
+    means, variances = np.array(cells).T
+    known = variances[np.isfinite(variances)]
+    return Here(float(means.mean()), float(np.sqrt(known.mean())) if known.size else float("nan"),
+                float(means.std(ddof=1)) if means.size > 1 else float("nan"))
 
 
 @once_a_study
-def _by_run(conditions: Conditions, quantity: str) -> tuple[dict[str, float], dict[str, np.ndarray]]:
-    """(run -> mean, run -> values) of a quantity in the validation episodes."""
+def _by_run(conditions: Conditions, quantity: str, survived: bool) -> dict[str, tuple[float, float]]:
+    """Run -> (mean, variance) of a quantity over its validation episodes, or those of them that were survived."""
     group, _, behaviour = quantity.partition(".")
+    rows = phase_rows(conditions, "behaviours" if behaviour else "episodes", "validation")
+    if (group if behaviour else quantity) not in rows or not len(rows):
+        return {}
+    if survived:
+        episodes = phase_rows(conditions, "episodes", "validation")
+        rows = rows.merge(episodes.loc[episodes["death"] == "none", ["run", "episode"]])
     if behaviour:
-        rows = sums(conditions, "validation", "all" if behaviour == "global" else behaviour, group, None)
+        mine = rows if behaviour == "global" else rows[rows["behaviour"] == behaviour]
+        value = mine[group] + mine["penalty"] if group == "reward" else mine[group]
+        values = value.groupby([mine["run"], mine["episode"]], observed=True).sum()
     else:
-        rows = phase_rows(conditions, "episodes", "validation").rename(columns={quantity: "value"})
-    if "value" not in rows or not len(rows):
-        return {}, {}
-    return run_means(rows, "value"), {run: mine["value"].to_numpy(float) for run, mine in split(rows).items()}
+        values = rows.set_index(["run", "episode"])[quantity]
+    of_run = values.groupby(level="run", observed=True)
+    return {str(run): (float(mean), float(variance)) for run, mean, variance in
+            zip(of_run.mean().index, of_run.mean(), of_run.var(ddof=1), strict=True)}
 
 
 def number(value: float | None, like: float | None = None, sign: bool = False) -> str:
@@ -92,30 +115,35 @@ def number(value: float | None, like: float | None = None, sign: bool = False) -
     return text.replace("-", "−") if sign else text
 
 
-def texts(row: Row) -> tuple[str, str, str]:
-    """(paper, here, difference) as shown."""
+def texts(row: Row) -> tuple[str, str, str, str]:
+    """(paper, here, difference, all episodes) as shown."""
     paper = "-"
     if row.paper:
         digits = 2 if row.paper.rounding < 0.1 else 0
         paper = f"{row.paper.mean:.{digits}f}" + (f" ± {row.paper.sd:.{digits}f}" if row.paper.sd else "")
         paper += " †" if row.undecided else ""
     like = row.paper.mean if row.paper else None
-    here = f"{number(row.here[0], like)} ± {number(row.here[1], like)}" if row.here else "-"
-    return paper, here, number(row.difference, like, sign=True)
+    here = f"{number(row.here.mean, like)} ± {number(row.here.within, like)}" if row.here else "-"
+    if row.here and np.isfinite(row.here.between):
+        here += f" ({number(row.here.between, like)})"
+    every = number(row.every.mean, like) if row.every else "-"
+    return paper, here, number(row.difference, like, sign=True), every
 
 
 def as_csv(tables: list[tuple[str, list[Row]]]) -> bytes:
     """All tables in long form; ``tables``: (combination of the other settings, rows)."""
     sink = io.StringIO()
     writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["settings", "quantity", "unit", "condition", "paper_mean", "paper_sd", "here_mean", "here_sd",
-                     "difference", "undecided"])
+    writer.writerow(["settings", "quantity", "unit", "condition", "paper_mean", "paper_sd", "here_mean",
+                     "here_sd_within_seeds", "here_sd_between_seeds", "difference", "all_mean", "all_sd_within_seeds",
+                     "all_sd_between_seeds", "undecided"])
+    nothing = (float("nan"),) * 3
     for stratum, of in tables:
         for row in of:
             paper = (row.paper.mean, row.paper.sd) if row.paper else (None, None)
-            here = row.here or (None, None)
+            numbers = (*paper, *(row.here or nothing), row.difference, *(row.every or nothing))
             writer.writerow([stratum, row.quantity, row.unit, row.condition,
-                             *("" if v is None else f"{v:.6g}" for v in (*paper, *here, row.difference)),
+                             *("" if v is None or not np.isfinite(v) else f"{v:.6g}" for v in numbers),
                              "yes" if row.undecided else ""])
     return sink.getvalue().encode()
 
@@ -129,7 +157,7 @@ def print_table(of: list[Row], title: str) -> None:
     shown = Shown(title=Text(title), title_justify="left")
     shown.add_column("Table 5")
     for label in labels:
-        for head in (f"{label}\npaper", "\nhere", "\ndiff."):
+        for head in (f"{label}\npaper", "\nhere", "\ndiff.", "\nall"):
             shown.add_column(Text(head), justify="right", no_wrap=True)
     for quantity in dict.fromkeys(row.quantity for row in of):
         mine = [row for row in of if row.quantity == quantity]
@@ -138,5 +166,6 @@ def print_table(of: list[Row], title: str) -> None:
     if not console.is_terminal:
         console = Console(width=118)
     console.print(shown)
+    print("here: episodes that were survived, ± within a seed (between seeds); all: every episode, with penalties")
     if any(row.undecided for row in of):
         print("† the paper's text does not tell which of two cells this is")
