@@ -91,7 +91,7 @@ class RunPlan:
     def _try_parts(self) -> None:
         """Construct everything that is cheap, so that a part's own complaint comes before the first run."""
         try:
-            agent = self.agent(simulator=cast(Simulator, _NoSimulator()))
+            agent = self.parts_alone()
             self.callbacks()
             self._check_probes(self.probes())
         except ConfigError:
@@ -137,6 +137,10 @@ class RunPlan:
         fusion = registry.make("fusion", s.fusion, r)
         penalty = registry.make("penalty", {"name": r.penalised}, r, "reading.penalised")
         return Agent(attentions, body, simulator, fusion, penalty, r.max_cycles)
+
+    def parts_alone(self) -> Agent:
+        """The robot without a world, for those who only ask its parts."""
+        return self.agent(simulator=cast(Simulator, _NoSimulator()))
 
     def making(self, run: str = "run", folder: Path | None = None) -> Making:
         """What the run's parts are made from."""

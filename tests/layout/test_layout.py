@@ -35,11 +35,11 @@ FLOORS = (
     ("launch",),
     ("clusters",),
     ("cli", "testing"),
-    ("certify", "appraise", "fig1", "plot", "parts", "new", "api", "__main__"),
+    ("certify", "appraise", "fig1", "plot", "parts", "new", "api", "clock", "__main__"),
 )
 TOP = {  # modules that are no commands
-    "__init__", "api", "arithmetic", "attention", "config", "console", "cycle", "equations", "errors", "groups",
-    "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
+    "__init__", "api", "arithmetic", "attention", "clock", "config", "console", "cycle", "equations", "errors",
+    "groups", "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
 COMMANDS = {"__main__", "fig1", "new", "parts"}  # thin modules for python -m; the others are packages with __main__
 NO_CODE = {"plugins", "templates"}
 ROBOT = {"robot", "attention", "cycle"}
