@@ -60,7 +60,8 @@ class Over(Curiosity):
 @register("curiosity", "composed", presets={"litman_itti": {"liking": "surprise"}})
 class Composed(Curiosity):
     """Wanting, liking, level and mixing rule, each from the model named for it (any registered one, with settings of
-    its own if given as a mapping). ``litman_itti`` is Litman's wanting with Itti's liking.
+    its own if given as a mapping). ``litman_itti`` is Litman's wanting with Itti's liking, put together here
+    and the same robot as ``surprise``.
 
     The memory holds one memory for the wanting and one for the liking; they are the same if both are the same model.
     ``persists`` is the liking's. Draws what its models draw.

@@ -53,15 +53,18 @@ def panels(conditions: Conditions) -> list[Panel]:
         return found
     values = list(dict.fromkeys(stratum[0] for stratum in conditions.strata))
     colour, dash = colours([f"{v} " for v in values]), dashes(values)
+    # a setting that follows from the first, as those of a variant do, tells no panels apart
+    apart = [i for i in range(1, len(conditions.settings))
+             if len({(stratum[0], stratum[i]) for stratum in conditions.strata}) > len(values)]
     groups: dict[tuple[str, ...], list[Line]] = {}
     for stratum in conditions.strata:
         value = stratum[0]
         curiosity, runs = next((c, runs) for c, runs in ((c, conditions.runs(c, stratum)) for c in curiosities)
                                if runs.runs)
         name = conditions.labels.get(value, value if len(curiosities) == 1 else f"{conditions.name(curiosity)} {value}")
-        groups.setdefault(stratum[1:], []).append(Line(cut(name, 40), runs, colour[f"{value} "], dash[value]))
-    names = conditions.settings[1:]
-    return [Panel(", ".join(f"{n}={v}" for n, v in zip(names, rest, strict=True)), lines)
+        rest = tuple(stratum[i] for i in apart)
+        groups.setdefault(rest, []).append(Line(cut(name, 40), runs, colour[f"{value} "], dash[value]))
+    return [Panel(", ".join(f"{conditions.settings[i]}={v}" for i, v in zip(apart, rest, strict=True)), lines)
             for rest, lines in groups.items()]
 
 

@@ -122,6 +122,16 @@ def test_rivals_that_differ_by_more_than_curiosity_share_their_axes(tmp_path):
     assert len(rows) == 3 and rows[0].startswith("condition,runs,early,late,validation,crashed,")
 
 
+def test_what_follows_from_a_variant_tells_no_panels_apart(tmp_path):
+    study = tmp_path / "controls"
+    for variant, curiosity, states in (("cr", "litman", "plain"), ("same", "none", "same_states"),
+                                       ("plain", "none", "plain")):
+        write_study(study, 1, (curiosity,), swept={"variant": variant, "reading.non_curious": states},
+                    labels={"cr": "CR", "same": "NCR, same states", "plain": "NCR"})
+    (panel,) = panels(Conditions(load(study)))
+    assert [line.name for line in panel.lines] == ["CR", "NCR, same states", "NCR"] and panel.title == ""
+
+
 def test_any_swept_setting_and_missing_runs(tmp_path):
     study = tmp_path / "swept"
     for value in (0.5, 0.9):

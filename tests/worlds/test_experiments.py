@@ -7,6 +7,7 @@ import yaml
 
 from attnlab import registry
 from attnlab.paths import conf_dir
+from attnlab.testing import run
 
 
 def params(experiment):
@@ -18,7 +19,15 @@ def params(experiment):
 def test_curiosities_holds_every_built_in_model():
     built_in = {option for spec in registry.parts.values() if spec.group == "curiosity"
                 and spec.cls.__module__.startswith("attnlab.curiosity.") for option in (spec.name, *spec.presets)}
-    assert set(params("curiosities")["curiosity"]) == built_in - {"composed"}  # which is litman unless it is set
+    assert set(params("curiosities")["curiosity"]) == built_in - {"composed", "litman_itti"}  # litman, surprise
+
+
+def test_a_model_composed_of_a_models_parts_is_that_model():
+    """So each of them is named once in curiosities."""
+    tables = [run(seed=2, max_cycles=200, train_episodes=2, curiosity=name) for name in ("litman_itti", "surprise")]
+    kept = [{column: values for column, values in of["behaviours"].items() if column not in ("run", "curiosity")}
+            for of in tables]
+    assert kept[0] == kept[1]
 
 
 def test_generations_are_files_that_name_parts():
