@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,10 @@ import pytest
 from attnlab.loading import load_all
 
 ROOT = Path(__file__).resolve().parent.parent
+CHROMIUM = next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))),
+                None)
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-extensions",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars"]
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -39,3 +44,18 @@ def complain(tmp_path, monkeypatch, capsys):
         code = main(list(arguments))
         return code, capsys.readouterr().err, sorted(str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*"))
     return call
+
+
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory):
+    """A function that runs Chromium on arguments and returns (standard output, standard error)."""
+    if CHROMIUM is None:
+        assert os.environ.get("CI") != "true", "CI must install chromium"
+        pytest.skip("chromium is not installed (Debian: apt-get install chromium)")
+    home = tmp_path_factory.mktemp("chromium")
+
+    def run(*arguments: str) -> tuple[str, str]:
+        done = subprocess.run([CHROMIUM, *FLAGS, f"--user-data-dir={home}", *arguments], capture_output=True, text=True,
+                              timeout=120, check=True)
+        return done.stdout, done.stderr
+    return run

@@ -1,16 +1,7 @@
 """The page in a real headless Chromium: no console messages, every image shown, nothing asked of the network."""
 
-import os
 import re
-import shutil
-import subprocess
 
-import pytest
-
-CHROMIUM = next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))),
-                None)
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-extensions",
-         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars"]
 PROBE = """
 <!doctype html><meta charset="utf-8"><iframe id="page" src="%s" style="width:1100px;height:2000px"></iframe>
 <pre id="told"></pre><script>
@@ -24,21 +15,6 @@ document.getElementById('page').onload = function () {
 };
 </script>
 """
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    """A function that runs Chromium on arguments and returns (standard output, standard error)."""
-    if CHROMIUM is None:
-        assert os.environ.get("CI") != "true", "CI must install chromium"
-        pytest.skip("chromium is not installed (Debian: apt-get install chromium)")
-    home = tmp_path_factory.mktemp("chromium")
-
-    def run(*arguments: str) -> tuple[str, str]:
-        done = subprocess.run([CHROMIUM, *FLAGS, f"--user-data-dir={home}", *arguments], capture_output=True, text=True,
-                              timeout=120, check=True)
-        return done.stdout, done.stderr
-    return run
 
 
 def test_no_console_errors_and_all_images(built, browser, tmp_path):

@@ -1,0 +1,1 @@
+"""A recorded episode to look at: one page that needs no network."""
