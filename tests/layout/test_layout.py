@@ -35,7 +35,7 @@ FLOORS = (
     ("launch",),
     ("clusters",),
     ("cli", "testing"),
-    ("certify", "appraise", "replay", "fig1", "plot", "parts", "new", "api", "clock", "__main__"),
+    ("certify", "appraise", "replay", "gym", "fig1", "plot", "parts", "new", "api", "clock", "__main__"),
 )
 TOP = {  # modules that are no commands
     "__init__", "api", "arithmetic", "attention", "clock", "config", "console", "cycle", "equations", "errors",

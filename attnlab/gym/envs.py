@@ -1,0 +1,151 @@
+"""Gymnasium environments of one robot. See docs/gym.md."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, SupportsFloat
+
+import gymnasium
+import numpy as np
+import numpy.typing as npt
+
+from attnlab.gym.play import Look, Play
+from attnlab.robot.plan import RunPlan
+
+Numbers = npt.NDArray[np.float32]
+OF_A_LOOK = ("percept", "period", "wanting", "liking", "energy")  # an observation of one behaviour, each in [0, 1]
+SEEDS = 2**31
+
+
+class _Robot(gymnasium.Env[Numbers, Any]):
+    """What both environments share. ``overrides``: of the config, as on the command line. ``penalty``: what a death
+    costs instead of ``reading.penalty`` (a network learns little from -1500).
+
+    ``reset(seed=s)`` begins the run with seed s at its first training episode, ``reset()`` goes on with the next
+    episode; others' learners learn from one to the next. Start poses and streams are those of ``python -m attnlab``
+    with that seed.
+    """
+    metadata = {"render_modes": ["ansi"], "render_fps": 6}
+
+    def __init__(self, overrides: Sequence[str] = (), penalty: float | None = None, render_mode: str | None = None):
+        from attnlab.cli.calls import composed
+        self.render_mode, self.penalty = render_mode, penalty
+        self._plan = RunPlan(composed(list(overrides)))
+        self._play: Play | None = None
+        self._looks: dict[str, Look] = {}
+
+    def _deciding(self) -> Sequence[str]:
+        raise NotImplementedError
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None
+              ) -> tuple[Numbers, dict[str, Any]]:
+        super().reset(seed=seed)
+        if seed is not None or self._play is None:
+            run_seed = seed if seed is not None else int(self.np_random.integers(SEEDS))
+            self.close()
+            self._play = Play(self._plan.with_seed(run_seed), self._deciding())
+        self._play.start()
+        self._perceive()
+        return self._observation(), self._info()
+
+    def _perceive(self) -> float:
+        """Those who fire look; the sum of what their periods that elapsed earned, UoR."""
+        assert self._play is not None, "call reset() first"
+        earned = 0.0
+        for name in self._play.firing:
+            self._looks[name] = self._play.look(name)
+            earned += self._looks[name].reward
+        return earned
+
+    def _live(self, actions: dict[str, int]) -> tuple[Numbers, SupportsFloat, bool, bool, dict[str, Any]]:
+        play = self._play
+        if play is None or play.over:
+            raise gymnasium.error.ResetNeeded("call reset() first")
+        over = play.go(actions)
+        dead, earned = play.death is not None, self._perceive()
+        paid = sum(share if self.penalty is None else self.penalty for share in play.penalties.values() if share)
+        return self._observation(), earned + paid, dead, over and not dead, self._info()
+
+    def _seen(self, name: str) -> list[float]:
+        play = self._play
+        assert play is not None, "call reset() first"
+        attention, look = play.attentions[name], self._looks[name]
+        low, high = attention.behaviour.sigma_low, attention.behaviour.sigma_high
+        energy = play.agent.body.energy / self._plan.reading.energy_max
+        terms = attention.action / max(1, len(attention.periods) - 1)
+        return [min(1.0, max(0.0, v)) for v in ((look.sigma - low) / (high - low), terms, look.wanting, look.liking,
+                                                 energy)]
+
+    def _observation(self) -> Numbers:
+        raise NotImplementedError
+
+    def _info(self) -> dict[str, Any]:
+        play = self._play
+        assert play is not None, "call reset() first"
+        return {"cycle": play.cycle, "death": play.death or "none", "firing": play.firing,
+                "states": {name: look.state for name, look in self._looks.items()}}
+
+    def render(self) -> Any:
+        """A line of text with ``render_mode="ansi"``."""
+        return self._play.words() if self._play is not None and self.render_mode == "ansi" else None
+
+    def close(self) -> None:
+        if self._play is not None:
+            self._play.close()
+            self._play = None
+        self._looks = {}
+
+
+class AttentionEnv(_Robot):
+    """``attnlab/Attention-v0``: the clock of one ``behaviour``; the other behaviours have the config's learner.
+
+    A step is one decision: the next period, an index of ``periods``. It ends when the clock fires again, after as many
+    machine cycles, with the reward of the period that elapsed (eq 4). Observation: :data:`OF_A_LOOK`, ``percept`` and
+    ``period`` scaled to [0, 1]. ``terminated``: the robot died; ``truncated``: the cycles are over.
+    """
+
+    def __init__(self, behaviour: str = "avoid", overrides: Sequence[str] = (), penalty: float | None = None,
+                 render_mode: str | None = None):
+        super().__init__(overrides, penalty, render_mode)
+        self.behaviour = behaviour
+        Play(self._plan, [behaviour]).close()  # whether there is such a behaviour is known now, not at reset
+        self.action_space = gymnasium.spaces.Discrete(len(self._plan.settings.periods))
+        self.observation_space = gymnasium.spaces.Box(0.0, 1.0, (len(OF_A_LOOK),), np.float32)
+
+    def _deciding(self) -> Sequence[str]:
+        return [self.behaviour]
+
+    def step(self, action: Any) -> tuple[Numbers, SupportsFloat, bool, bool, dict[str, Any]]:
+        return self._live({self.behaviour: int(action)})
+
+    def _observation(self) -> Numbers:
+        return np.array(self._seen(self.behaviour), np.float32)
+
+
+class SurvivalEnv(_Robot):
+    """``attnlab/Survival-v0``: one scheduler for all clocks.
+
+    A step is a decision whenever any clock fires: a period for every behaviour, of which those count whose clock
+    fires. Observation: for each behaviour whether its clock fires, then :data:`OF_A_LOOK` as it last looked; nobody
+    looks in between. Reward: the sum of what ended periods earned.
+    """
+
+    def __init__(self, overrides: Sequence[str] = (), penalty: float | None = None, render_mode: str | None = None):
+        super().__init__(overrides, penalty, render_mode)
+        self.behaviours = list(self._plan.settings.behaviours)
+        Play(self._plan, self.behaviours).close()
+        shape = ((1 + len(OF_A_LOOK)) * len(self.behaviours),)
+        self.action_space = gymnasium.spaces.MultiDiscrete([len(self._plan.settings.periods)] * len(self.behaviours))
+        self.observation_space = gymnasium.spaces.Box(0.0, 1.0, shape, np.float32)
+
+    def _deciding(self) -> Sequence[str]:
+        return self.behaviours
+
+    def step(self, action: Any) -> tuple[Numbers, SupportsFloat, bool, bool, dict[str, Any]]:
+        return self._live({name: int(index) for name, index in zip(self.behaviours, action, strict=True)})
+
+    def _observation(self) -> Numbers:
+        assert self._play is not None, "call reset() first"
+        fires = self._play.firing
+        return np.array([value for name in self.behaviours for value in (float(name in fires), *self._seen(name))],
+                        np.float32)
