@@ -55,8 +55,10 @@ def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> None:
     study = grow(folder, as_typed(typed), list(asked.values()), jobs[0].settings.labels, code(), jobs[0].claims,
                  before)
     names = {condition.key: condition.name for condition in study.conditions}
+    homes = {run.key: run.name for run in study.runs}
     for job in jobs:
         job.of.name = names[job.of.key]
+        job.folder = folder / homes[job.key]  # another command may have named the run already
 
 
 def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:

@@ -15,7 +15,6 @@ from attnlab.results.states import state_of
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.code import code
 from attnlab.tables.flat import text
-from attnlab.tables.processes import is_running
 from attnlab.tables.schema import SCHEMA_VERSION
 from attnlab.tables.study import Condition, condition_config, condition_key
 
@@ -25,7 +24,8 @@ OTHER_CODE = "made by other code"
 @dataclass
 class Job:
     """One run to be: its checked plan, where it goes, and what run.json will say of it. ``swept``: what sets its
-    condition apart, by setting; ``condition``: the name of that, once the study knows it."""
+    condition apart, by setting; ``condition``: the name of that, once the study knows it; ``seen``: the claim under
+    which it ended last, when this command looked."""
     plan: RunPlan
     overrides: list[str]
     swept: dict[str, Any]
@@ -33,6 +33,7 @@ class Job:
     of: Condition
     folder: Path
     claims: dict[str, str] | None = None
+    seen: str | None = ""
 
     @property
     def config(self) -> Mapping[str, Any]:
@@ -110,18 +111,16 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
     for job in jobs:
         reason, about = "missing", dict[str, Any]()
         for folder in existing.get(job.key, []):
-            status, _, about = state_of(folder)
+            status, _, about = state_of(folder, whole=True)
             reason = status
-            if status == "running" and is_running(about):
-                raise ConfigError("study", f"{folder} is being run by process {about['pid']}",
-                                  "Wait for it, or name another: study=...")
-            if status == "complete" and about.get("key") == job.key:
-                job.folder = folder
-                if about.get("schema") != SCHEMA_VERSION:
+            if about.get("key") == job.key and about.get("run") in (None, folder.name):  # no copy of it
+                job.folder, job.seen = folder, about.get("claim")
+                if status == "complete" and about.get("schema") != SCHEMA_VERSION:
                     reason = "with tables of an older version"
-                if about.get("plugins") not in (None, plugin_hashes(job.config)):
+                if status == "complete" and about.get("plugins") not in (None, plugin_hashes(job.config)):
                     reason = "made before its plugin was changed"
                 break
+            reason, about = "missing" if status == "complete" else status, {}
         if reason == "complete" and not fresh:
             done.append(job)
             if (about.get("code") or {}).get("hash") != code()["hash"]:

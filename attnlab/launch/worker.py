@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import time
@@ -10,14 +11,20 @@ from pathlib import Path
 from typing import Any
 
 from attnlab.loading import load_all
-from attnlab.robot.folder import run_to_folder
+from attnlab.robot.folder import ClaimLostError, run_to_folder
+from attnlab.tables.claim import Claim
+from attnlab.tables.processes import end_with_parent
 
 REPORT_S = 0.25
+COMPLETE, FAILED, ORPHAN, LOST = 0, 1, 3, 4  # exit codes
 
 
-def work(config: dict[str, Any], folder: str, info: dict[str, Any], pipe: Connection) -> None:
-    """Run, and tell the parent how far (episodes, cycles) about four times a second; exit code 0 if complete."""
+def work(config: dict[str, Any], folder: str, info: dict[str, Any], pipe: Connection, claim: Claim | None = None
+         ) -> None:
+    """Run, and tell the parent how far (episodes, cycles) about four times a second. Ends as soon as the parent is
+    gone, leaving a run that says it was running."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's; it ends this process
+    end_with_parent()
     load_all()
     last = 0.0
 
@@ -28,7 +35,14 @@ def work(config: dict[str, Any], folder: str, info: dict[str, Any], pipe: Connec
             last = now
             try:
                 pipe.send((episodes, cycles))
-            except OSError:  # the parent is gone: stop too, leaving a run that says it was running
-                os._exit(3)
-    complete = run_to_folder(config, Path(folder), info, progress)
-    os._exit(0 if complete else 1)  # no clean-up in C libraries that could crash after the results are safe
+            except OSError:
+                os._exit(ORPHAN)
+    try:
+        code = COMPLETE if run_to_folder(config, Path(folder), info, progress, claim) else FAILED
+    except ClaimLostError:
+        code = LOST
+    except OSError as cause:  # the disk is full, say: there is no place for the reason
+        with contextlib.suppress(OSError):
+            pipe.send(f"{cause.filename or folder}: {cause.strerror}")
+        code = FAILED
+    os._exit(code)  # no clean-up in C libraries that could crash after the results are safe

@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from attnlab.tables.files import read_json
+from attnlab.tables.files import mark_of, read_json
 from attnlab.tables.schema import OLDEST_SCHEMA, SCHEMA_VERSION, TABLES
 
 State = tuple[str, str, dict[str, Any]]  # (status, why, run.json)
 
 
-def state_of(folder: Path) -> State:
-    """(status, why, run.json) of a run folder. ``damaged``: it says complete, but a table is missing or broken."""
+def state_of(folder: Path, whole: bool = False) -> State:
+    """(status, why, run.json) of a run folder. ``damaged``: it says complete, but a table is missing or broken.
+    ``whole``: read every table, and compare it with what was written."""
     about = read_json(folder / "run.json")
     if about is None:
         missing = "no run.json" if not (folder / "run.json").exists() else "run.json is not readable"
@@ -23,7 +24,9 @@ def state_of(folder: Path) -> State:
             return "damaged", (f"tables of schema {about.get('schema')}, this version reads {OLDEST_SCHEMA} to "
                                f"{SCHEMA_VERSION}; run it again with fresh=true"), about
         for table in TABLES:
-            problem = _check_parquet(folder / f"{table}.parquet")
+            file, marks = folder / f"{table}.parquet", about.get("tables")
+            mark = marks.get(table) if isinstance(marks, dict) else None
+            problem = _check_parquet(file) or (check_mark(file, mark) if whole and isinstance(mark, dict) else "")
             if problem:
                 return "damaged", problem, about
     error = str(about.get("error") or "").strip().splitlines()
@@ -40,6 +43,15 @@ def _check_parquet(path: Path) -> str:
     except OSError:
         return f"{path.name} is missing or cut off"
     return "" if head == tail == b"PAR1" else f"{path.name} is cut off or no Parquet file"
+
+
+def check_mark(path: Path, mark: dict[str, Any], data: bytes | None = None) -> str:
+    """Empty if a table (``data``, if it was read already) is as run.json says it was written, else what is wrong."""
+    try:
+        found = mark_of(path.read_bytes() if data is None else data)
+    except OSError:
+        return f"{path.name} cannot be read"
+    return "" if found["sha256"] == mark.get("sha256") else f"{path.name} is not what the run wrote"
 
 
 def looks_like_run(folder: Path) -> bool:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import platform
 import time
 import traceback
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,27 +16,38 @@ from attnlab.robot.episodes import Progress, play_run
 from attnlab.robot.guards import verdict
 from attnlab.robot.observers import Observers
 from attnlab.robot.plan import RunPlan
+from attnlab.tables.claim import Claim
 from attnlab.tables.code import versions
-from attnlab.tables.files import write_bytes, write_json, write_parquet
+from attnlab.tables.files import sweep_temporary, write_bytes, write_json, write_parquet
 from attnlab.tables.processes import birth
 from attnlab.tables.schema import SCHEMA_VERSION, TABLES
 
+LONGEST = 20_000  # characters of an error that are kept; a message may have megabytes
+
+
+class ClaimLostError(Exception):
+    """Somebody else took the run over, for nothing was heard of this process; it must write no more."""
+
 
 def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, Any],
-                  progress: Progress | None = None) -> bool:
+                  progress: Progress | None = None, claim: Claim | None = None) -> bool:
     """Run and store; True if complete. A failure is stored with its traceback and goes no further.
 
     ``info``: run (name), key, overrides, swept, sources. run.json says ``running`` first and ``complete`` last, so a
-    folder in any other state is never taken for a result.
+    folder in any other state is never taken for a result. ``claim``: on this run; looked at once more before anything
+    that was made is written. Raises :class:`ClaimLostError`.
     """
     from omegaconf import OmegaConf
+    folder = folder.absolute()  # a part may change the working folder
     folder.mkdir(parents=True, exist_ok=True)
+    sweep_temporary(folder)
     started = time.perf_counter()
     about = {"status": "running", "run": info["run"], "key": info["key"], "seed": config["seed"],
              "overrides": list(info["overrides"]),
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
              "condition": info.get("condition"), "plugins": plugin_hashes(config),
              "versions": versions(), "code": info.get("code"), "claims": info.get("claims"),
+             "claim": claim.token if claim else None,
              "pid": os.getpid(), "pid_birth": birth(os.getpid()), "host": platform.node(),
              "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
     write_json(folder / "run.json", about)
@@ -43,20 +55,59 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     for name in TABLES:
         (folder / f"{name}.parquet").unlink(missing_ok=True)
     cpu, observers = time.process_time(), Observers()
+    interrupt = None
     try:
-        plan = RunPlan(config)
-        observers = Observers(plan.callbacks(info["run"], folder))
-        observers.start(config)
-        tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers)
+        with _here():
+            plan = RunPlan(config)
+            observers = Observers(plan.callbacks(info["run"], folder))
+            observers.start(config)
+            tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers)
+        _check_held(claim)
+        about["tables"] = {}
         for name in TABLES:
             columns = plan.columns(name)
-            write_parquet(folder / f"{name}.parquet", tables[name] or {column: [] for column in columns}, columns)
+            about["tables"][name] = write_parquet(folder / f"{name}.parquet",
+                                                  tables[name] or {column: [] for column in columns}, columns)
         about.update(status="complete", cycles=cycles)
-    except Exception as cause:  # noqa: BLE001  a failed run is data: its traceback is stored, the sweep goes on
-        about.update(status="failed", error=f"{traceback.format_exc()}\n{verdict(cause)}\n")
+    except ClaimLostError:
+        raise
+    except KeyboardInterrupt as cause:
+        about.update(status="failed", error="interrupted before it was complete\n", interrupted=True)
+        interrupt = cause
+    except BaseException as cause:  # noqa: BLE001  a failed run is data, and a part may raise anything
+        about.update(status="failed", error=f"{_cut(traceback.format_exc())}\n{_cut(verdict(cause))}\n")
     observers.end(str(about["status"]))
     if observers.errors:
         about["callbacks"] = observers.errors
     about.update(wall_s=round(time.perf_counter() - started, 3), cpu_s=round(time.process_time() - cpu, 3))
+    _check_held(claim)
     write_json(folder / "run.json", about)
+    if interrupt is not None:
+        raise interrupt
     return bool(about["status"] == "complete")
+
+
+def _check_held(claim: Claim | None) -> None:
+    if claim is not None and not claim.held():
+        raise ClaimLostError(claim.path.name)
+
+
+def _cut(text: str) -> str:
+    """A text of bearable length: its two ends."""
+    half = LONGEST // 2
+    return text if len(text) <= LONGEST else f"{text[:half]} [{len(text) - LONGEST:,} characters] {text[-half:]}"
+
+
+@contextlib.contextmanager
+def _here() -> Iterator[None]:
+    """Come back to the working folder, wherever a part went."""
+    try:
+        home = Path.cwd()
+    except OSError:  # it was deleted
+        yield
+        return
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError):
+            os.chdir(home)

@@ -15,6 +15,7 @@ from attnlab.loading import load_all, plugin_hashes
 from attnlab.robot.episode import run_episode
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.files import write_bytes
+from attnlab.tables.processes import end_with_parent
 
 if TYPE_CHECKING:
     from concurrent.futures import ProcessPoolExecutor
@@ -105,6 +106,7 @@ _stage: tuple[RunPlan, Simulator, int] | None = None  # (plan, simulator, episod
 def _open(config: Mapping[str, Any], episodes: int) -> None:
     global _stage
     if _stage is None:
+        end_with_parent()
         load_all()
         plan = RunPlan({**config, "check_identities": False})
         _stage = plan, plan.simulator(), episodes

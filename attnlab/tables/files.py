@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 import json
 import os
+import secrets
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,16 +15,43 @@ from attnlab.tables.schema import Column
 
 
 def write_bytes(path: Path, data: bytes) -> None:
-    """Write through a temporary file in the same folder, on disk before it gets its name."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    """Write through a temporary file in the same folder, on disk before it gets its name, and the name on disk too.
+    Raises OSError that names ``path``."""
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.tmp")
     try:
         with temporary.open("wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
         temporary.replace(path)
+        _sync_folder(path.parent)
+    except OSError as cause:
+        raise OSError(cause.errno, cause.strerror, str(path)) from None
     finally:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def _sync_folder(folder: Path) -> None:
+    """The names in a folder, on disk; where a system cannot open folders, it sees to that itself."""
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def sweep_temporary(folder: Path) -> None:
+    """Remove half-written files that a killed process left in a folder that is ours alone."""
+    for path in folder.glob(".*.tmp"):
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
+def mark_of(data: bytes) -> dict[str, Any]:
+    """What tells whether a file is still as it was written: its length in bytes and its sha256."""
+    return {"bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}
 
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
@@ -37,9 +67,10 @@ def read_json(path: Path) -> dict[str, Any] | None:
     return content if isinstance(content, dict) else None
 
 
-def write_parquet(path: Path, columns: Mapping[str, Sequence[Any]], known: Mapping[str, Column]) -> None:
-    """One table; the bytes depend on the values and the Arrow version alone. ``known``: type, unit and meaning of
-    columns, which are kept with them; a column that is not known gets the type of its values."""
+def write_parquet(path: Path, columns: Mapping[str, Sequence[Any]], known: Mapping[str, Column]
+                  ) -> dict[str, Any]:
+    """One table; its :func:`mark_of`. The bytes depend on the values and the Arrow version alone. ``known``: type,
+    unit and meaning of columns, which are kept with them; a column that is not known gets the type of its values."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -52,4 +83,6 @@ def write_parquet(path: Path, columns: Mapping[str, Sequence[Any]], known: Mappi
     table = pa.Table.from_arrays(arrays, schema=pa.schema(fields))
     sink = pa.BufferOutputStream()
     pq.write_table(table, sink, compression="zstd", use_dictionary=True, write_statistics=True)
-    write_bytes(path, sink.getvalue().to_pybytes())
+    data = sink.getvalue().to_pybytes()
+    write_bytes(path, data)
+    return mark_of(data)

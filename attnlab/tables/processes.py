@@ -1,9 +1,10 @@
-"""Is the process that began a run still at it?"""
+"""Is the process that began a run still at it? And does this one still have somebody to work for?"""
 
 from __future__ import annotations
 
 import os
 import platform
+import threading
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -38,3 +39,17 @@ def is_running(about: Mapping[str, Any], patience_s: float = 1.0) -> bool:
             return True
         time.sleep(0.05)
     return False
+
+
+def end_with_parent() -> None:
+    """End this process, which :mod:`multiprocessing` began, as soon as the one that wanted it is gone."""
+    from multiprocessing import parent_process
+    from multiprocessing.connection import wait
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def watch() -> None:
+        wait([parent.sentinel])
+        os._exit(3)
+    threading.Thread(target=watch, daemon=True).start()

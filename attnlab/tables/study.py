@@ -65,7 +65,8 @@ class StudyFile:
         return {condition.name: condition for condition in self.conditions}
 
     def add(self, condition: Condition, runs: Iterable[tuple[str, str, int]]) -> None:
-        """A condition and its runs (name, key, seed), or what is new of them. Call :meth:`rename` after the last."""
+        """A condition and its runs (name, key, seed), or what is new of them: a run keeps the name it was first
+        asked for by. Call :meth:`rename` after the last."""
         known = next((c for c in self.conditions if c.key == condition.key), None)
         if known is None:
             condition.name = condition.key
@@ -75,9 +76,16 @@ class StudyFile:
         keys = {run.key: run for run in self.runs}
         for name, key, seed in runs:
             if key in keys:
-                keys[key].name, keys[key].condition = name, known.name
+                keys[key].condition = known.name
             else:
                 self.runs.append(Asked(name, key, known.name, seed))
+
+    def rehome(self, folder: Path, names: Mapping[str, str]) -> None:
+        """Runs whose folder is under another of their names (key -> name) go by that one."""
+        for run in self.runs:
+            name = names.get(run.key, run.name)
+            if name != run.name and not (folder / run.name).exists() and (folder / name).exists():
+                run.name = name
 
     def rename(self) -> None:
         """Give every condition the one name that tells it from the others."""
@@ -130,6 +138,7 @@ def grow(folder: Path, typed: Sequence[str], conditions: Sequence[tuple[Conditio
         study.code, study.claims = dict(code), dict(claims) if claims else None
         for condition, runs in conditions:
             study.add(condition, runs)
+        study.rehome(folder, {key: name for _, runs in conditions for name, key, _ in runs})
         study.rename()
         write_json(folder / FILE, dataclasses.asdict(study))
     return study

@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 
 from attnlab.results import load
-from attnlab.tables.processes import birth
 from attnlab.tables.schema import SCHEMA, TABLES
 
 SHORT = ("simulator=planar", "train_episodes=3", "validation_episodes=2", "max_cycles=120", "picture=false",
@@ -88,19 +87,23 @@ def test_asking_again_runs_only_what_is_missing(study, attnlab):
     assert len(load(folder).complete) == 6
 
 
-def test_two_at_once_are_refused(study, attnlab):
-    """A run that another living process works at is left alone."""
-    folder, _ = study
-    run = sorted(folder.glob("*/run.json"))[0]
-    about = {**json.loads(run.read_text()), "status": "running", "pid": os.getpid(),
-             "pid_birth": birth(os.getpid())}
-    run.write_text(json.dumps(about))
-    again = attnlab("+experiment=cr_vs_ncr", "-m", "seed=0-1", *SHORT)
-    assert again.returncode == 2
-    assert f"is being run by process {os.getpid()}" in again.stderr
-    for gone in ({"pid": 2**22 + 1}, {"pid_birth": about["pid_birth"] - 1}):  # no such process; its number used again
-        run.write_text(json.dumps({**about, **gone}))
-        assert attnlab("+experiment=cr_vs_ncr", "-m", "seed=0-1", *SHORT).returncode == 0
+def test_two_at_once_share_the_work(attnlab, tmp_path):
+    """Each run is done by one of them, both end well, and the bytes are those of one command."""
+    env = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[2])}
+    command = [sys.executable, "-m", "attnlab", "seed=0-1", *SHORT, "cluster.jobs=1"]
+    both = [subprocess.Popen([*command, "study=shared", f"curiosity={order}"], cwd=tmp_path, text=True, env=env,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            for order in ("litman,none", "none,litman")]
+    said = [process.communicate(timeout=240) for process in both]
+    assert [process.returncode for process in both] == [0, 0], said
+    shared = tmp_path / "outputs" / "shared"
+    runs = runs_of(shared)
+    assert [about["status"] for about in runs] == ["complete"] * 4
+    assert not list((shared / ".claims").iterdir())
+    assert len({about["key"] for about in runs}) == 4
+    assert attnlab("seed=0-1", *SHORT, "curiosity=litman,none", "study=alone").returncode == 0
+    for one in (tmp_path / "outputs" / "alone").glob("*/*.parquet"):
+        assert one.read_bytes() == (shared / one.parent.name / one.name).read_bytes(), one
 
 
 def test_fresh_starts_over_and_makes_the_same_bytes(study, attnlab):
