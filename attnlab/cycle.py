@@ -27,6 +27,7 @@ class Agent:
         self.now = RobotSenses(self.simulator, self.body)
         for attention in self.attentions:
             attention.curiosity.attach(self.now)
+        self.fusion.attach(self.attentions)
 
     def start(self, x: float, y: float, heading: float) -> None:
         """Everything as at the start of an episode, with the robot at this pose."""

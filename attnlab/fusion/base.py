@@ -3,9 +3,25 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, Protocol
 
 from attnlab.reading import Reading
+
+
+class Named(Protocol):
+    """What a fusion sees of a behaviour."""
+    name: str
+
+
+class Clocked(Protocol):
+    """What a fusion may know of who commands: its behaviour, the period in force (machine cycles), and the command it
+    holds, or None."""
+    period: int
+    command: tuple[float, float] | None
+
+    @property
+    def behaviour(self) -> Named: ...
 
 
 class Fusion(ABC):
@@ -14,6 +30,9 @@ class Fusion(ABC):
 
     def __init__(self, params: Any, reading: Reading):
         self.params, self.reading = params, reading
+
+    def attach(self, clocks: Sequence[Clocked]) -> None:
+        """The robot is built; these are its clocks from now on, in the order in which they act."""
 
     @abstractmethod
     def fuse(self, commands: list[tuple[float, float]]) -> tuple[float, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from random import Random
 from typing import Any, NamedTuple, Protocol
 
@@ -17,7 +17,7 @@ class LearnerContext:
     """What a learner is built from: one learner a behaviour.
 
     A state is ``(level * len(periods) + period) * bins + percept``, all counted from 0; an action is an index into
-    ``periods`` (machine cycles).
+    ``periods`` (machine cycles). ``shared``: what the learners of one robot's behaviours tell each other.
     """
     reading: Reading
     behaviour: str
@@ -25,6 +25,7 @@ class LearnerContext:
     periods: Sequence[int]
     bins: int
     draw: Random
+    shared: dict[str, Any] = field(default_factory=dict)
 
     @property
     def states(self) -> int:
@@ -59,6 +60,7 @@ class Learner(ABC):
     name: str
     learns = True
     on_policy = False  # does update need the next action? Then that is chosen before the update, otherwise after
+    needs_between = False  # does it learn by ``watched``, from every cycle between looks? Only a log can give them
 
     @classmethod
     def prepare(cls, params: Any, play: Rehearse) -> dict[str, Any]:  # noqa: ARG003  for those that need it
@@ -87,6 +89,10 @@ class Learner(ABC):
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
         """Learn from one period that ended: it was chosen in ``state``, lasted ``cycles`` and led to ``next_state``,
         where ``next_action`` was chosen (-1 unless ``on_policy``)."""
+
+    def watched(self, path: Sequence[int], rewards: Sequence[float], ended: bool) -> None:
+        """In place of ``update`` and ``terminal``, for those with ``needs_between``: learn from a period of n cycles
+        whose n + 1 states and n rewards are known. ``ended``: the last one is an end."""
 
     @abstractmethod
     def terminal(self, state: int, action: int, reward: float) -> None:

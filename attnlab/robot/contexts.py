@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -20,13 +20,15 @@ from attnlab.worlds.base import Layout
 
 @dataclass(frozen=True)
 class Making:
-    """What is known of a run when its parts are made. ``levels``: of curiosity; ``behaviour``: whose learner it is."""
+    """What is known of a run when its parts are made. ``levels``: of curiosity; ``behaviour``: whose learner it is;
+    ``shared``: by the learners of one robot."""
     reading: Reading
     seed: int
     layout: Layout
     periods: Sequence[int]
     levels: Sequence[str] = ()
     behaviour: str = ""
+    shared: dict[str, Any] = field(default_factory=dict)
     run: str = "run"
     folder: Path | None = None
 
@@ -39,7 +41,7 @@ class Making:
             return CuriosityContext(r, r.percept_bins, stream(seed, "curiosity"))
         if group == "learner":
             return LearnerContext(r, self.behaviour, self.levels, self.periods, r.percept_bins,
-                                  stream(seed, "learner", self.behaviour))
+                                  stream(seed, "learner", self.behaviour), self.shared)
         if group == "simulator":
             return SimulatorContext(self.layout, r.dt_s, r.max_cycles, r.safety_distance_m
                                     if r.crash == "safety_distance" else None, stream(seed, "simulator"))

@@ -101,6 +101,9 @@ class RunPlan:
         self.needs = {need.name: need.unit for need in agent.body.needs}
         simulator = self.simulator_spec[0].name
         for attention in agent.attentions:
+            if attention.learner.needs_between:
+                raise ConfigError("learner", f"'{attention.learner.name}' asks for the percepts between looks, which a "
+                                  "robot that does not look has not", "Only a log can give them: see docs/arena.md")
             for need in attention.behaviour.feels:
                 if need not in agent.body.index:
                     raise ConfigError(f"behaviours.{attention.behaviour.name}", f"nobody brings a need called '{need}'",

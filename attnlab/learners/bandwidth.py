@@ -1,0 +1,58 @@
+"""Bandwidth: behaviours bid for looks, and a budget that all share sets the price."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from attnlab.learners.base import LearnerContext
+from attnlab.learners.self_triggered import Watchful
+from attnlab.registry import register
+from attnlab.settings import setting
+
+
+@register("learner", "bandwidth")
+class Bandwidth(Watchful):
+    """Value of information under a shared budget. f(k), the cost of age, is the chance of danger or death k cycles
+    after a look at a percept (ours, as in ``self_triggered``). A behaviour looks after the period with the least cost a
+    cycle at the price lambda of a look, (lambda + sum_{0<k<p} f(k)) / p. Where f rises that is the first p at which
+    Whittle's index of f, (p - 1) f(p) - sum_{0<k<p} f(k), exceeds lambda (Tripathi & Modiano 2019, arXiv 1908.10438, on
+    a channel that loses nothing). Values are minus that cost.
+
+    lambda is one number for all behaviours: after every look it grows by ``step`` (looks a cycle - ``budget``), not
+    below 0, the looks a cycle being the sum over behaviours of one by the mean period of its latest ones. At a
+    dangerous percept danger is known, and each cycle in which it is not watched costs one. Draws nothing at random.
+    """
+
+    @dataclass
+    class Params(Watchful.Params):
+        budget: float = setting(0.4, "looks a cycle of all behaviours together", above=0)
+        step: float = setting(0.02, "how fast the price follows", unit="mc", above=0, high=10)
+        memory: float = setting(0.95, "of the mean period", low=0, high=0.999)
+
+    params: Params
+
+    def __init__(self, params: Params, context: LearnerContext):
+        context.shared.setdefault("price", 0.1)
+        context.shared.setdefault("periods", {})
+        super().__init__(params, context)
+
+    def values(self, state: int) -> list[float]:
+        price: float = self.context.shared["price"]
+        x, values = state % self.context.bins, []
+        for p in self.context.periods:
+            harm = float(p - 1) if self.dangerous[x] else 0.0
+            for chance in self.trace[x][1:p]:
+                harm += chance
+            values.append(-(price + harm) / p)
+        return values
+
+    def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
+        super().update(state, action, reward, next_state, next_action, cycles)
+        p, shared = self.params, self.context.shared
+        means: dict[str, float] = shared["periods"]
+        mine = means.get(self.context.behaviour, float(cycles))
+        means[self.context.behaviour] = p.memory * mine + (1.0 - p.memory) * cycles
+        looks = 0.0
+        for mean in means.values():
+            looks += 1.0 / mean
+        shared["price"] = max(0.0, shared["price"] + p.step * (looks - p.budget))
