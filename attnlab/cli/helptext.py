@@ -14,6 +14,7 @@ attnlab: learn where to look.
   python -m attnlab                                          one run: the curious robot of Di Nocera et al. 2014
   python -m attnlab +experiment=smoke                        does everything work here? (seconds)
   python -m attnlab +experiment=cr_vs_ncr -m seed=0-19       the paper's study: curious against non-curious, 40 runs
+  python -m attnlab +experiment=controls -m seed=0-19        CR, and both robots that it may be held against
   python -m attnlab +experiment=baselines seed=0-4           fixed, random and always-on attention
   python -m attnlab curiosity=none reading=table4 seed=0-4,7 any part, any setting, any seeds
   python -m attnlab 'behaviours=[avoid,eat]' +behaviours=rest
