@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, sin
 from types import ModuleType
 
-from attnlab.simulators.robot import RADIUS_M, WHEEL_BASE_M, WHEEL_RADIUS_M
+from attnlab.simulators.robot import RADIUS_M, SONARS, WHEEL_BASE_M, WHEEL_RADIUS_M
 from attnlab.worlds.base import Layout
 
 COLOURS = {"food": (0.1, 0.7, 0.2, 1), "water": (0.1, 0.3, 0.9, 1), "obstacle": (0.05, 0.05, 0.05, 1),
@@ -105,3 +105,14 @@ def add_robot(p: ModuleType, client: int, wheels: bool, visible: bool) -> tuple[
     if not visible:
         hide(p, client, body)
     return body, base_z, (0, 1)
+
+
+def draw_beams(p: ModuleType, client: int, robot: int, ranges: list[float], lines: list[int]) -> list[int]:
+    """Beams of these ranges (m, from the ring) into Bullet's window, fixed to the robot, in place of ``lines``; their
+    numbers."""
+    drawn = []
+    for i, ((x, y, angle), reach) in enumerate(zip(SONARS, ranges, strict=False)):
+        more = {"replaceItemUniqueId": lines[i]} if i < len(lines) else {}
+        drawn.append(p.addUserDebugLine((x, y, 0.1), (x + reach * cos(angle), y + reach * sin(angle), 0.1), (1, 0.6, 0),
+                                        lifeTime=0.5, parentObjectUniqueId=robot, physicsClientId=client, **more))
+    return drawn + lines[len(drawn):]

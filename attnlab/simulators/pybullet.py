@@ -16,7 +16,7 @@ from attnlab.arithmetic import length, total
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
-from attnlab.simulators.bullet_bodies import RAY_GROUP, add_floor, add_robot, add_solids
+from attnlab.simulators.bullet_bodies import RAY_GROUP, add_floor, add_robot, add_solids, draw_beams
 from attnlab.simulators.bullet_camera import Rays, Segmentation
 from attnlab.simulators.robot import BEAMS, SONAR_HEIGHT_M, SONAR_MIN_M, WHEEL_BASE_M, WHEEL_RADIUS_M, arc
 
@@ -55,7 +55,7 @@ class PyBullet(Simulator):
         drive: Literal["kinematic", "wheels"] = setting("kinematic", "how the robot moves")
         camera: Literal["segmentation", "rays"] = setting(
             "segmentation", "blobs from the rendered image, or from one ray a column")
-        gui: bool = setting(False, "open Bullet's window")
+        gui: bool = setting(False, "open Bullet's window, in which sonar beams are drawn whenever they are read")
         wheel_force_n: float = setting(40.0, "largest torque of a wheel motor", unit="N m", above=0)
 
     params: Params
@@ -72,6 +72,7 @@ class PyBullet(Simulator):
         self._finalizer = weakref.finalize(self, _disconnect, p, self._client)
         self._wheels = params.drive == "wheels"
         self._substeps = max(1, round(self.dt_s * PHYSICS_HZ))
+        self._lines: list[int] = []
         self._build()
         reach, z = params.sonar_range_m, SONAR_HEIGHT_M - self._base_z
         self._ray_from = [(x, y, z) for x, y, *_ in BEAMS]
@@ -120,8 +121,11 @@ class PyBullet(Simulator):
     def sonar(self, count: int = len(BEAMS)) -> list[float]:
         hits = self._p.rayTestBatch(self._ray_from[:count], self._ray_to[:count], parentObjectUniqueId=self._robot,
                                     collisionFilterMask=RAY_GROUP, physicsClientId=self._client)
-        return [max(SONAR_MIN_M, hit[2] * length - offset)
-                for hit, (offset, length) in zip(hits, self._beams, strict=False)]
+        ranges = [max(SONAR_MIN_M, hit[2] * length - offset)
+                  for hit, (offset, length) in zip(hits, self._beams, strict=False)]
+        if self.params.gui:
+            self._lines = draw_beams(self._p, self._client, self._robot, ranges, self._lines)
+        return ranges
 
     def blobs(self) -> list[Blob]:
         cam, solids, blobs = self.camera, self.layout.solids, []

@@ -36,6 +36,7 @@ FLOORS = (
     ("clusters",),
     ("cli", "testing"),
     ("certify", "appraise", "replay", "gym", "fig1", "plot", "parts", "new", "api", "clock", "__main__"),
+    ("render",),
 )
 TOP = {  # modules that are no commands
     "__init__", "api", "arithmetic", "attention", "clock", "config", "console", "cycle", "equations", "errors",

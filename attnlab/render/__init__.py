@@ -1,0 +1,1 @@
+"""An episode of a run as a film."""
