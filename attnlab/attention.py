@@ -7,12 +7,19 @@ from collections.abc import Sequence
 from random import Random
 from typing import NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
 from attnlab.behaviours.base import Behaviour, Senses
 from attnlab.curiosity.base import Curiosity
 from attnlab.equations import clock_period, percept_bin, period_term
 from attnlab.exploration.base import Exploration
 from attnlab.learners.base import Learner
 from attnlab.reading import Reading
+
+Values = npt.NDArray[np.float64]
+Whole = npt.NDArray[np.int64]
+WHOLE = ("cycle", "percept", "level", "period")
 
 
 class Activation(NamedTuple):
@@ -30,12 +37,50 @@ class Activation(NamedTuple):
     extrinsic: float | None
 
 
+class Looks(NamedTuple):
+    """Activations as columns, each of shape (n,); NaN where there was no reward."""
+    cycle: Whole
+    sigma: Values
+    percept: Whole
+    level: Whole
+    period: Whole
+    wanting: Values
+    liking: Values
+    released: Values
+    reward: Values
+    extrinsic: Values
+
+
+class Log(list[Activation]):
+    """An episode's activations in the order they came. Compiled code writes them to ``table`` instead, the first
+    ``rows`` of it."""
+    table: Values | None = None
+    rows = 0
+
+    def columns(self) -> Looks:
+        """All of them."""
+        table = np.array(self, np.float64).reshape(-1, len(Activation._fields)) if self.table is None \
+            else self.table[:self.rows].copy()
+        return Looks(*(column.astype(np.int64) if name in WHOLE else column
+                       for name, column in zip(Looks._fields, table.T, strict=True)))
+
+    def looks(self) -> tuple[Activation, ...]:
+        """All of them, one by one."""
+        if self.table is None:
+            return tuple(self)
+        c = self.columns()
+        paid = ~np.isnan(c.reward)
+        return tuple(Activation._make((*row[:7], bool(row[7]), *(row[8:] if pays else (None, None))))
+                     for row, pays in zip(zip(*(column.tolist() for column in c), strict=True), paid, strict=True))
+
+
 class Attention:
     """The clock of one behaviour and what it learns.
 
     ``due`` is the cycle of the next activation, ``period`` the one in force (machine cycles), ``command`` the motor
     command held, or None.
     """
+    command: tuple[float, float] | None
 
     def __init__(self, behaviour: Behaviour, periods: Sequence[int], curiosity: Curiosity, learner: Learner,
                  reading: Reading, draw: Random):
@@ -48,7 +93,7 @@ class Attention:
         self._chosen_pays = reading.reward_period == "chosen"
         self._choose_first = self._chosen_pays or learner.on_policy
         self._row_levels = [level * len(periods) * self.bins for level in range(len(curiosity.levels))]
-        self.memory = curiosity.memory()
+        self.memory, self.log = curiosity.memory(), Log()
         self.start()
 
     def start(self) -> None:
@@ -57,8 +102,8 @@ class Attention:
         self.action = self._first
         self.period = self.periods[self._first]
         self.state = -1
-        self.command: tuple[float, float] | None = None
-        self.log: list[Activation] = []
+        self.command = None
+        self.log.clear()
         self.wanting = self.liking = 0.0
         if not self.curiosity.persists:
             self.memory = self.curiosity.memory()

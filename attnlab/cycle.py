@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+import numpy.typing as npt
+
 from attnlab.attention import Attention
 from attnlab.behaviours.base import RobotSenses
 from attnlab.exploration.base import Exploration
@@ -11,6 +14,22 @@ from attnlab.fusion.base import Fusion
 from attnlab.needs.base import Body
 from attnlab.penalty.base import Penalty, check_shares
 from attnlab.simulators.base import Simulator
+
+Moment = tuple[float, ...]  # (cycles moved, behaviours active when the last stretch began, energy, *needs)
+
+
+class History(list[Moment]):
+    """An episode's moments: the start, and the end of each stretch. Compiled code writes them to ``table`` instead, the
+    first ``rows`` of it."""
+    table: npt.NDArray[np.float64] | None = None
+    rows = 0
+
+    def columns(self) -> npt.NDArray[np.float64]:
+        """All of them, shape (n, 3 + needs)."""
+        return np.array(self, np.float64) if self.table is None else self.table[:self.rows]
+
+    def add(self, cycle: int, active: int, body: Body) -> None:
+        self.append((cycle, active, body.energy, *body.values))
 
 
 @dataclass
@@ -24,7 +43,7 @@ class Agent:
     max_cycles: int
 
     def __post_init__(self) -> None:
-        self.now = RobotSenses(self.simulator, self.body)
+        self.now, self.history = RobotSenses(self.simulator, self.body), History()
         for attention in self.attentions:
             attention.curiosity.attach(self.now)
         self.fusion.attach(self.attentions)
@@ -36,11 +55,22 @@ class Agent:
         self.now.start()
         for attention in self.attentions:
             attention.start()
+        self.history.clear()
+        self.history.add(0, 0, self.body)
 
     def died(self, cause: str, learning: bool) -> list[float]:
         """The robot died of ``cause``: the penalty of each behaviour."""
         shares = check_shares(self.penalty, cause, [attention.behaviour for attention in self.attentions])
         return [attention.died(share, learning) for attention, share in zip(self.attentions, shares, strict=True)]
+
+
+def live(agent: Agent, exploration: Exploration, learning: bool) -> str | None:
+    """An episode that was started, to its end: the cause of death, or None."""
+    cause = None
+    while cause is None and agent.simulator.cycle < agent.max_cycles:
+        active, cause = machine_cycle(agent, exploration, learning)
+        agent.history.add(agent.simulator.cycle, active, agent.body)
+    return cause
 
 
 def machine_cycle(agent: Agent, exploration: Exploration, learning: bool) -> tuple[int, str | None]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from attnlab.arithmetic import total
 from attnlab.behaviours.base import Behaviour, BehaviourContext, Command, Senses
 from attnlab.equations import avoid_reward
 from attnlab.registry import register
@@ -61,7 +60,10 @@ class Avoid(Behaviour):
         heard = now.front_distances()
         near, free, stop = min(heard), self.sigma_high, self._stop_m
         v = r.v_max_m_s * min(1.0, max(0.0, (near - stop) / (free - stop)))
-        w = total([turn for turn, d in zip(self._turns, heard, strict=True) if d < self._active_m])
+        w = 0.0
+        for i, d in enumerate(heard):
+            if d < self._active_m:
+                w += self._turns[i]
         if min(heard[2:6]) >= self._blocked_m or r.turn_rule == "sum":
             self._side = 0.0
             return v, w

@@ -11,7 +11,7 @@ from attnlab.errors import ConfigError, nearest
 from attnlab.needs.base import Body, Need
 from attnlab.reading import Reading
 from attnlab.simulators.base import Blob, Simulator, Surroundings
-from attnlab.simulators.robot import FRONT, centre_distances
+from attnlab.simulators.robot import FRONT, SONARS, centre_distances
 
 Command = tuple[float, float]  # (v m/s, w rad/s, left positive)
 
@@ -36,6 +36,7 @@ class RobotSenses:
 
     def __init__(self, simulator: Simulator, body: Body):
         self.simulator, self.body = simulator, body
+        self._front, self._ring = [0.0] * len(FRONT), [0.0] * len(SONARS)
         self.start()
 
     def start(self) -> None:

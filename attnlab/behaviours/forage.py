@@ -8,6 +8,7 @@ from math import pi
 from attnlab.behaviours.base import Behaviour, BehaviourContext, Command, Senses
 from attnlab.equations import need_reward
 from attnlab.settings import setting
+from attnlab.simulators.base import Blob
 from attnlab.simulators.robot import RADIUS_M
 
 
@@ -19,6 +20,15 @@ class ForageParams:
     search_cycles: int = setting(40, "cycles until another random direction is drawn", unit="mc", low=1)
     slow_m: float = setting(1.0, "slow down from this distance on, to rest at rest_m", unit="m", above=0)
     rest_m: float = setting(0.6, "rest at this distance, within reach", unit="m", above=RADIUS_M)
+
+
+def tallest(blobs: list[Blob]) -> Blob:
+    """The first of the tallest."""
+    found = blobs[0]
+    for blob in blobs:
+        if blob.height_px > found.height_px:
+            found = blob
+    return found
 
 
 class Forage(Behaviour):
@@ -56,7 +66,7 @@ class Forage(Behaviour):
         if not seen:
             return self._search(now)
         p, r = self.params, self.reading
-        blob = max(seen, key=lambda b: b.height_px)
+        blob = tallest(seen)
         if blob.distance_m < r.food_reach_m and now.cycle >= self._next_meal:
             now.body.consume(self.need, p.power)
             now.body.larder.take(blob.solid, now.cycle)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
-
 from attnlab.curiosity.base import Curiosity
+from attnlab.curiosity.window import Window
 from attnlab.equations import liking
 from attnlab.registry import register
 
@@ -18,14 +17,14 @@ class Litman(Curiosity):
     one counts is ``reading.novelty_counts_current``. Draws nothing at random.
     """
 
-    def memory(self) -> deque[int]:
-        return deque(maxlen=self.reading.novelty_window)
+    def memory(self) -> Window:
+        return Window(self.reading.novelty_window, self.bins)
 
-    def liking(self, memory: deque[int], percept: int) -> float:
-        r, visits = self.reading, memory.count(percept)
+    def liking(self, memory: Window, percept: int) -> float:
+        r, visits = self.reading, memory.visits[percept]
         if r.novelty_counts_current:  # it pushes the oldest out of a full window
-            visits += 1 - (len(memory) == r.novelty_window and memory[0] == percept)
+            visits += 0 if memory.oldest() == percept else 1
         return liking(visits, r.novelty_window)
 
-    def observe(self, memory: deque[int], percept: int) -> None:
-        memory.append(percept)
+    def observe(self, memory: Window, percept: int) -> None:
+        memory.add(percept)

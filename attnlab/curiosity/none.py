@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections import deque
 from typing import Any
 
+from attnlab import equations
 from attnlab.curiosity.base import HH, LH, LOW, NONE, CuriosityContext
 from attnlab.curiosity.litman import Litman
+from attnlab.curiosity.window import Window
 from attnlab.registry import register
 
 
@@ -24,11 +25,11 @@ class NoCuriosity(Litman):
         self._plain = self.reading.non_curious == "plain"
         self.levels = (NONE,) if self._plain else (LOW, LH, HH)
 
-    def wanting(self, memory: deque[int], energy: float) -> float:
-        return 0.0 if self._plain else super().wanting(memory, energy)
+    def wanting(self, memory: Window, energy: float) -> float:
+        return 0.0 if self._plain else equations.wanting(energy, self.reading.energy_well, self.reading.energy_max)
 
     def level(self, wanting: float, liking: float) -> int:
-        return 0 if self._plain else super().level(wanting, liking)
+        return 0 if self._plain or wanting <= self.high_wanting else 2 if liking > self.high_liking else 1
 
     def mix(self, extrinsic: float, liking: float, wanting: float) -> float:
         return extrinsic

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections import deque
 from dataclasses import dataclass
 
 from attnlab.curiosity.base import Curiosity
+from attnlab.curiosity.window import Window
 from attnlab.equations import liking
 from attnlab.registry import register
 from attnlab.settings import setting
@@ -14,7 +14,7 @@ from attnlab.settings import setting
 @register("curiosity", "novelty_window")
 class NoveltyWindow(Curiosity):
     """Liking 1 - NV/length: eq (12) of Di Nocera et al. 2014 with a length of its own, over the behaviour's last
-    percepts, the current one left out. Memory: a deque of percepts. Draws nothing at random."""
+    percepts, the current one left out. Memory: a window of percepts. Draws nothing at random."""
 
     @dataclass
     class Params:
@@ -23,11 +23,11 @@ class NoveltyWindow(Curiosity):
 
     params: Params
 
-    def memory(self) -> deque[int]:
-        return deque(maxlen=self.params.length)
+    def memory(self) -> Window:
+        return Window(self.params.length, self.bins)
 
-    def liking(self, memory: deque[int], percept: int) -> float:
-        return liking(memory.count(percept), self.params.length)
+    def liking(self, memory: Window, percept: int) -> float:
+        return liking(memory.visits[percept], self.params.length)
 
-    def observe(self, memory: deque[int], percept: int) -> None:
-        memory.append(percept)
+    def observe(self, memory: Window, percept: int) -> None:
+        memory.add(percept)

@@ -18,18 +18,20 @@ def inner(function: Function) -> Function:
     return cast("Function", njit(error_model="numpy")(function))
 
 
-def compiled(signature: str) -> Callable[[Function], Function]:
-    """Decorator: compile for this one signature, from the disk cache if it holds the function.
+def compiled(signature: str, **options: Any) -> Callable[[Function], Function]:
+    """Decorator: compile for this one signature, from the disk cache if it holds the function; ``options`` are numba's.
 
     One signature means that whole numbers are converted rather than compiled for anew. No fastmath and no threads: the
     machine code, and so every bit of a result, is the same whether it was cached or not. Without any writable cache
     folder (beside the package, the user's, or NUMBA_CACHE_DIR) the function is compiled in each process, and one line
     on standard error says so.
     """
+    options = {"error_model": "numpy", **options}
+
     def wrap(function: Function) -> Function:
         global _told
         try:
-            return cast("Function", njit(signature, cache=True, error_model="numpy")(function))
+            return cast("Function", njit(signature, cache=True, **options)(function))
         except (RuntimeError, OSError) as cause:
             if isinstance(cause, RuntimeError) and "cache" not in str(cause):
                 raise
@@ -37,5 +39,5 @@ def compiled(signature: str) -> Callable[[Function], Function]:
                 print("attnlab: numba's cache folder is not writable, so every process compiles the simulator anew "
                       "(some seconds); set NUMBA_CACHE_DIR to a folder that is", file=sys.stderr)
                 _told = True
-            return cast("Function", njit(signature, error_model="numpy")(function))
+            return cast("Function", njit(signature, **options)(function))
     return wrap

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
-from math import ceil
+from dataclasses import dataclass
+from math import ceil, inf
 from typing import Any
 
 from attnlab.arithmetic import total
@@ -28,23 +28,37 @@ class Need:
     unit: str = "UoE"
 
 
-@dataclass
 class Larder:
-    """How much is left in each source (by index of its solid), and when an empty one fills again."""
-    reading: Reading
-    eaten: dict[int, int] = field(default_factory=dict)
-    full_again: dict[int, int] = field(default_factory=dict)
+    """How much was taken from each source (by index of its solid), and when an empty one fills again."""
+
+    def __init__(self, reading: Reading):
+        self.reading = reading
+        self.eaten, self.full_again = [0], [0]
+
+    def start(self) -> None:
+        """All are full."""
+        for solid in range(len(self.eaten)):
+            self.eaten[solid] = self.full_again[solid] = 0
+
+    def reserve(self, solids: int) -> None:
+        """Make room for so many solids."""
+        more = solids - len(self.eaten)
+        self.eaten += [0] * more
+        self.full_again += [0] * more
 
     def has(self, solid: int, cycle: int) -> bool:
         """Is there anything left in this source?"""
-        return self.reading.food_supply == "endless" or cycle >= self.full_again.get(solid, 0)
+        return (self.reading.food_supply == "endless" or solid >= len(self.full_again)
+                or cycle >= self.full_again[solid])
 
     def take(self, solid: int, cycle: int) -> None:
         """One meal from this source."""
         r = self.reading
         if r.food_supply == "endless":
             return
-        self.eaten[solid] = self.eaten.get(solid, 0) + 1
+        if solid >= len(self.eaten):
+            self.reserve(solid + 1)
+        self.eaten[solid] += 1
         if self.eaten[solid] % r.food_portions == 0:
             respawns = r.food_supply == "respawn"
             self.full_again[solid] = cycle + r.food_respawn_cycles if respawns else r.max_cycles + 1
@@ -58,15 +72,19 @@ class Body:
 
     def __init__(self, needs: list[Need], energy_start: float, e_u: float, e_nb: float, reading: Reading):
         self.needs, self.reading = needs, reading
-        self.index = {need.name: i for i, need in enumerate(needs)}
+        self.names = [need.name for need in needs]
+        self.index = {name: i for i, name in enumerate(self.names)}
         self.e_u, self.e_nb, self.energy_start = e_u, e_nb, energy_start
         self.energy = energy_start
         self.dead = False
-        self._deadly = [(i, need, need.death_at) for i, need in enumerate(needs) if need.death_at is not None]
-        self._energy_floor = reading.energy_min if reading.energy_death else None
-        self._ceiling = reading.energy_max if reading.energy_clipped else None
+        self._limits = [inf if need.death_at is None else float(need.death_at) for need in needs]
+        self._energy_floor = reading.energy_min if reading.energy_death else -inf
+        self._ceiling = reading.energy_max if reading.energy_clipped else inf
         self._floored = reading.needs_floored
-        self._rates = [(need.per_activation, need.per_cycle, need.feeds_energy) for need in needs]
+        self.values = [float(need.start) for need in needs]
+        self.meals = [0] * len(needs)
+        self.larder = Larder(reading)
+        self._eaten = [0.0] * len(needs)
         self.start()
 
     def start(self) -> None:
@@ -74,15 +92,18 @@ class Body:
         if not self.reading.energy_carry_over or self.dead:  # carried over, the energy of a dead robot kills the next
             self.energy = self.energy_start
         self.dead = False
-        self.values = [need.start for need in self.needs]
-        self.meals = [0] * len(self.needs)
-        self._eaten = [0.0] * len(self.needs)
+        for i, need in enumerate(self.needs):
+            self.values[i], self.meals[i], self._eaten[i] = need.start, 0, 0.0
         self._ate = False
-        self.larder = Larder(self.reading)
+        self.larder.start()
+
+    def place(self, name: str) -> int:
+        """The index of a need."""
+        return self.index[name]
 
     def consume(self, name: str, amount: float) -> None:
         """Something satisfies this need by ``amount`` UoE in this cycle."""
-        i = self.index[name]
+        i = self.place(name)
         self._eaten[i] += amount
         self.meals[i] += 1
         self._ate = True
@@ -91,14 +112,16 @@ class Body:
         """How many of the next ``cycles`` (the first with ``active`` behaviours, then none) the robot lives,
         counting the one it dies in."""
         eaten = self._eaten
-        for i, need, limit in self._deadly:
-            left = limit - self._floor(need_after_cycle(self.values[i], need.per_activation, active, eaten[i]))
+        for i, need in enumerate(self.needs):
+            if self._limits[i] == inf:
+                continue
+            left = self._limits[i] - self._floor(need_after_cycle(self.values[i], need.per_activation, active, eaten[i]))
             if left - need.per_cycle <= 0:
                 return 1
             if need.per_cycle > 0:
                 cycles = min(cycles, ceil(left / need.per_cycle))
-        if self._energy_floor is not None:
-            fed = total(eaten[i] for i, rate in enumerate(self._rates) if rate[2])
+        if self._energy_floor > -inf:
+            fed = total([eaten[i] for i, need in enumerate(self.needs) if need.feeds_energy])
             left = self._clip(energy_after_cycle(self.energy, 0.0, self.e_nb, active, fed)) - self._energy_floor
             if left - self.e_u < 0:
                 return 1
@@ -110,28 +133,30 @@ class Body:
         """Eqs 5, 6 and 10 over ``cycles`` cycles, the first with ``active`` behaviours; the cause of death, or None."""
         values, eaten = self.values, self._eaten
         fed = 0.0
-        for i, (per_activation, per_cycle, feeds) in enumerate(self._rates):
-            values[i] = self._floor(need_after_cycle(values[i], per_activation, active, eaten[i])) + per_cycle * cycles
-            if feeds:
+        for i, need in enumerate(self.needs):
+            grown = need_after_cycle(values[i], need.per_activation, active, eaten[i])
+            values[i] = self._floor(grown) + need.per_cycle * cycles
+            if need.feeds_energy:
                 fed += eaten[i]
-        if self._ceiling is None:
+        if self._ceiling == inf:
             self.energy = energy_after_cycle(self.energy, self.e_u * cycles, self.e_nb, active, fed)
         else:
             self.energy = self._clip(energy_after_cycle(self.energy, 0.0, self.e_nb, active, fed)) - self.e_u * cycles
         if self._ate:
-            self._eaten = [0.0] * len(values)
+            for i in range(len(eaten)):
+                eaten[i] = 0.0
             self._ate = False
-        for i, need, limit in self._deadly:
-            if values[i] >= limit:
+        for i, need in enumerate(self.needs):
+            if values[i] >= self._limits[i]:
                 return need.name
-        if self._energy_floor is not None and self.energy < self._energy_floor:
+        if self.energy < self._energy_floor:
             return "energy"
         return None
 
 
     def _clip(self, energy: float) -> float:
         """Energy at what there can be of it (``reading.energy_clipped``), before the cycle takes its share."""
-        return energy if self._ceiling is None else min(energy, self._ceiling)
+        return min(energy, self._ceiling)
 
     def _floor(self, need: float) -> float:
         """A need at what there can be of it (``reading.needs_floored``)."""

@@ -11,6 +11,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from attnlab import registry
 from attnlab.attention import Attention
 from attnlab.cycle import Agent
@@ -22,10 +24,13 @@ SLACK = 1e-9  # of rounding
 
 def check_log(attention: Attention) -> None:
     """Everything an episode's log holds is within what was promised. Raises :class:`PartError`."""
-    behaviour, curiosity = attention.behaviour, attention.curiosity
+    behaviour, curiosity, looks = attention.behaviour, attention.curiosity, attention.log.columns()
     slack = SLACK * (1.0 + abs(behaviour.sigma_high))
     low, high, levels = behaviour.sigma_low - slack, behaviour.sigma_high + slack, len(curiosity.levels)
-    for _, sigma, _, level, _, wanting, liking, _, reward, extrinsic in attention.log:
+    fine = ((low <= looks.sigma) & (looks.sigma <= high) & (looks.wanting >= -SLACK) & (looks.wanting <= 1.0 + SLACK)
+            & (looks.liking >= -SLACK) & (looks.liking <= 1.0 + SLACK) & (looks.level >= 0) & (looks.level < levels))
+    fine[1:] &= np.isfinite(looks.reward[1:])
+    for _, sigma, _, level, _, wanting, liking, _, reward, extrinsic in () if fine.all() else attention.log.looks():
         if not low <= sigma <= high:
             raise PartError(behaviour, f"perceived {sigma}, outside [{behaviour.sigma_low}, {behaviour.sigma_high}]")
         if not (-SLACK <= wanting <= 1.0 + SLACK and -SLACK <= liking <= 1.0 + SLACK):

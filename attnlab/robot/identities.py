@@ -26,18 +26,20 @@ def check_balance(balance: np.ndarray, e_u: float, e_nb: float, growth: float, a
         raise IdentityError(f"energy + needs changed by {changed[i]} over {cycles[i]} cycles, should be {expected[i]}")
 
 
-def check_clock(cycles_of: Sequence[int], periods: Sequence[int], end: int) -> None:
+def check_clock(cycles_of: Sequence[int] | np.ndarray, periods: Sequence[int] | np.ndarray, end: int) -> None:
     """Periods granted sum to the episode's cycles, but for what is left of the last one.
 
     ``cycles_of``: when the behaviour was active; ``periods``: what was granted then; ``end``: cycles of the episode.
     """
-    for i, (cycle, period) in enumerate(zip(cycles_of, periods, strict=True)):
-        following = cycles_of[i + 1] if i + 1 < len(cycles_of) else None
-        if following is not None and cycle + period != following:
-            raise IdentityError(f"a period of {period} granted at cycle {cycle} ended at {following}")
-        if following is None and not cycle < end <= cycle + period:
-            raise IdentityError(f"the last period, {period} granted at cycle {cycle}, does not hold the end at {end}")
-    if cycles_of and cycles_of[0] != 0:
+    fired, granted = np.asarray(cycles_of), np.asarray(periods)
+    wrong = np.flatnonzero(fired[:-1] + granted[:-1] != fired[1:])
+    if wrong.size:
+        i = wrong[0]
+        raise IdentityError(f"a period of {granted[i]} granted at cycle {fired[i]} ended at {fired[i + 1]}")
+    if len(fired) and not fired[-1] < end <= fired[-1] + granted[-1]:
+        raise IdentityError(f"the last period, {granted[-1]} granted at cycle {fired[-1]}, does not hold the end at "
+                            f"{end}")
+    if len(fired) and fired[0] != 0:
         raise IdentityError(f"the first activation was at cycle {cycles_of[0]}, not 0")
 
 

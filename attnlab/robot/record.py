@@ -10,19 +10,18 @@ import numpy as np
 import numpy.typing as npt
 
 from attnlab.arithmetic import total
-from attnlab.attention import Attention
+from attnlab.attention import Looks
 from attnlab.cycle import Agent
 from attnlab.needs.base import Body
 from attnlab.probes.base import Lived, Probe, Values
 from attnlab.robot.guards import check_commands, check_log
 from attnlab.robot.identities import check_balance, check_clock, check_safety
 from attnlab.robot.observers import Observers
-from attnlab.robot.summaries import bouts, distances, guard_of, held, safety, safety_held, turning
+from attnlab.robot.summaries import bouts, distances, guard_of, held, in_order, safety, safety_held, turning
 from attnlab.tables.schema import CELL_M
 from attnlab.worlds.base import Layout
 
 Tables = dict[str, dict[str, list[Any]]]  # table -> column -> values
-Moment = tuple[float, ...]  # (cycles moved, behaviours active when the last stretch began, energy, *needs)
 
 
 class Recorder:
@@ -44,11 +43,11 @@ class Recorder:
         for name, value in row.items():
             columns[name].append(value)
 
-    def episode(self, agent: Agent, phase: str, episode: int, history: list[Moment], death: str | None,
-                penalties: list[float], full: bool) -> None:
-        """Rows of one episode; ``full`` stores its cycles too. ``history``: the state at the start and after each
-        stretch of an active cycle and the idle ones that followed it."""
-        body, n, moments = agent.body, agent.simulator.cycle, np.array(history)
+    def episode(self, agent: Agent, phase: str, episode: int, death: str | None, penalties: list[float], full: bool
+                ) -> None:
+        """Rows of one episode; ``full`` stores its cycles too."""
+        body, n, moments = agent.body, agent.simulator.cycle, agent.history.columns()
+        looks = [attention.log.columns() for attention in agent.attentions]
         reached = moments[:, 0].astype(np.int64)
         lengths = np.diff(reached)
         remaining = np.repeat(reached[1:], lengths) - np.arange(n) - 1
@@ -56,15 +55,15 @@ class Recorder:
         needs = {need.name: np.repeat(moments[1:, 3 + i], lengths) - need.per_cycle * remaining
                  for i, need in enumerate(body.needs)}
         path = agent.simulator.trace[:n + 1]
-        safe, safe_held = self._safety(agent, path[1:])
+        safe, safe_held = self._safety(agent, looks, path[1:])
         steps = np.diff(path[:, :2], axis=0)
         if self.check:
             _check_energy(body, moments, lengths)
             check_commands(agent)
-            for attention in agent.attentions:
+            for attention, seen in zip(agent.attentions, looks, strict=True):
                 check_log(attention)
-                check_clock([a.cycle for a in attention.log], [a.period for a in attention.log], n)
-        wanting = held(agent.attentions[0], n, [a.wanting for a in agent.attentions[0].log])
+                check_clock(seen.cycle, seen.period, n)
+        wanting = held(looks[0], n, looks[0].wanting)
         added: dict[str, dict[str, Any]] = {"episodes": {}, "behaviours": {}, "cycles": {}}
         if self.probes or self.observers:
             lived = _lived(agent, phase, episode, death, path, energy, wanting, safe, safe_held, needs)
@@ -81,35 +80,34 @@ class Recorder:
                   **{"hunger_mean": None, "hunger_max": None, "thirst_mean": None, "thirst_max": None, **means},
                   wanting_mean=float(wanting.mean()), path_m=float(_lengths(steps[:, 0], steps[:, 1]).sum()),
                   turn_rad=turning(path), **bouts(_meal_times(body, needs)), **self.swept, **added["episodes"])
-        for attention, penalty in zip(agent.attentions, penalties, strict=True):
+        for attention, seen, penalty in zip(agent.attentions, looks, penalties, strict=True):
             mine = {name: values[attention.behaviour.name] for name, values in added["behaviours"].items()}
-            self._behaviour(attention, phase, episode, penalty, mine)
+            self._behaviour(attention.behaviour.name, seen, phase, episode, penalty, mine)
         self._cover(phase, path[1:])
         if full:
-            self._cycles(agent, phase, episode, path[1:], needs, energy, wanting,
+            self._cycles(agent, looks, phase, episode, path[1:], needs, energy, wanting,
                          {"safety": safe, "safety_held": safe_held}, added["cycles"])
 
-    def _safety(self, agent: Agent, path: Values) -> tuple[Values | None, Values | None]:
+    def _safety(self, agent: Agent, looks: list[Looks], path: Values) -> tuple[Values | None, Values | None]:
         """Eq (13) in every cycle: from the true distance, and from what AVOID last perceived; None if nobody answers
         for crashes."""
         guard, n = guard_of(agent.attentions), len(path)
         if guard is None:
             return None, None
-        both = safety(guard, distances(path, self.layout)), safety_held(guard, n)
+        seen = looks[agent.attentions.index(guard)]
+        both = safety(guard, seen, distances(path, self.layout)), safety_held(guard, seen, n)
         if self.check:
             for values in both:
-                check_safety(float(values.mean()), n, len(guard.log), max(guard.periods), min(guard.periods))
+                check_safety(float(values.mean()), n, len(seen.cycle), max(guard.periods), min(guard.periods))
         return both
 
-    def _behaviour(self, attention: Attention, phase: str, episode: int, penalty: float, added: dict[str, Any]) -> None:
-        log = attention.log
-        paid = [a for a in log if a.reward is not None]
-        self._add("behaviours", **self.run_columns, phase=phase, episode=episode, behaviour=attention.behaviour.name,
-                  activations=len(log), releases=sum(1 for a in log if a.released),
-                  reward=total(a.reward or 0.0 for a in paid),
-                  reward_extrinsic=total(a.extrinsic or 0.0 for a in paid), penalty=penalty,
-                  liking_mean=total(a.liking for a in log) / len(log),
-                  period_mean=total(a.period for a in log) / len(log),
+    def _behaviour(self, name: str, looks: Looks, phase: str, episode: int, penalty: float, added: dict[str, Any]
+                   ) -> None:
+        n, paid = len(looks.cycle), ~np.isnan(looks.reward)
+        self._add("behaviours", **self.run_columns, phase=phase, episode=episode, behaviour=name, activations=n,
+                  releases=int(np.count_nonzero(looks.released)), reward=in_order(looks.reward[paid]),
+                  reward_extrinsic=in_order(looks.extrinsic[paid]), penalty=penalty,
+                  liking_mean=in_order(looks.liking) / n, period_mean=in_order(looks.period) / n,
                   **self.swept, **added)
 
     def _cover(self, phase: str, path: Values) -> None:
@@ -119,8 +117,9 @@ class Recorder:
         visits = np.bincount(i * ny + j, minlength=nx * ny)
         self._visits[phase] = self._visits.get(phase, 0) + visits
 
-    def _cycles(self, agent: Agent, phase: str, episode: int, path: Values, needs: dict[str, Values], energy: Values,
-                wanting: Values, safeties: dict[str, Values | None], added: dict[str, Any]) -> None:
+    def _cycles(self, agent: Agent, looks: list[Looks], phase: str, episode: int, path: Values,
+                needs: dict[str, Values], energy: Values, wanting: Values, safeties: dict[str, Values | None],
+                added: dict[str, Any]) -> None:
         n, dt = len(path), agent.simulator.dt_s
         before = agent.simulator.trace[:n]
         turn = (path[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
@@ -132,15 +131,13 @@ class Recorder:
                 "energy": energy, "wanting": wanting,
                 **{name: [None] * n if values is None else values for name, values in safeties.items()}}
         rows.update({name: values for name, values in needs.items() if name not in rows})
-        for attention in agent.attentions:
-            name, log = attention.behaviour.name, attention.log
-            active = np.zeros(n, bool)
-            active[[a.cycle for a in log]] = True
+        for attention, seen in zip(agent.attentions, looks, strict=True):
+            name, levels, active = attention.behaviour.name, attention.curiosity.levels, np.zeros(n, bool)
+            active[seen.cycle] = True
             rows[f"{name}_active"] = active
-            rows[f"{name}_period"] = held(attention, n, [a.period for a in log])
-            rows[f"{name}_percept"] = held(attention, n, [a.percept + 1 for a in log])
-            levels = attention.curiosity.levels
-            rows[f"{name}_level"] = [levels[i] for i in held(attention, n, [a.level for a in log])]
+            rows[f"{name}_period"] = held(seen, n, seen.period)
+            rows[f"{name}_percept"] = held(seen, n, seen.percept + 1)
+            rows[f"{name}_level"] = [levels[int(i)] for i in held(seen, n, seen.level)]
         rows |= added
         for name, values in rows.items():
             columns[name].extend(values.tolist() if isinstance(values, np.ndarray) else values)
@@ -174,7 +171,7 @@ def _lived(agent: Agent, phase: str, episode: int, death: str | None, path: Valu
                  fixed(wanting), None if safety is None else fixed(safety),
                  None if safety_held is None else fixed(safety_held),
                  {name: fixed(values) for name, values in needs.items()},
-                 {a.behaviour.name: tuple(a.log) for a in agent.attentions})
+                 {a.behaviour.name: a.log.looks() for a in agent.attentions})
 
 
 def _check_energy(body: Body, moments: Values, lengths: Values) -> None:

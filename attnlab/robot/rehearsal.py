@@ -127,7 +127,7 @@ def play(candidate: str) -> list[Outcome]:
     agent = plan.agent(simulator, json.loads(candidate))
     exploration, outcomes = plan.exploration("train"), []
     for episode in range(episodes):
-        history, _, _ = run_episode(agent, exploration, plan.start_pose("evolution", episode), False)
-        active = sum(moment[1] for moment in history)
-        outcomes.append(Outcome(agent.simulator.cycle, int(active), agent.max_cycles))
+        run_episode(agent, exploration, plan.start_pose("evolution", episode), False)
+        active = int(agent.history.columns()[:, 1].sum())
+        outcomes.append(Outcome(agent.simulator.cycle, active, agent.max_cycles))
     return outcomes

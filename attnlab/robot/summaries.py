@@ -4,22 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from attnlab.attention import Attention
-from attnlab.equations import safety as safety_at
+from attnlab.attention import Attention, Looks
+from attnlab.equations import safety as _safety_at
 from attnlab.worlds.base import Layout
 from attnlab.worlds.geometry import clearances
 
 Values = npt.NDArray[np.float64]
+_safety: Any = _safety_at  # eq (13) of many at once: the same arithmetic on arrays
 BOUT_MC = 60  # meals of one kind nearer than this to each other are one bout
 
 
-def held(attention: Attention, n: int, values: Sequence[object]) -> Values:
+def held(looks: Looks, n: int, values: Any) -> Values:
     """What was set at each activation, in every cycle until the next one, shape (n,)."""
-    return np.repeat(np.asarray(values), np.diff([a.cycle for a in attention.log], append=n))
+    return np.repeat(values, np.diff(looks.cycle, append=n))
+
+
+def in_order(values: npt.NDArray[Any]) -> float:
+    """The sum from the first to the last, each step rounded, as :func:`attnlab.arithmetic.total` has it."""
+    return float(np.cumsum(values)[-1]) if len(values) else 0.0
 
 
 def guard_of(attentions: Sequence[Attention]) -> Attention | None:
@@ -27,19 +34,18 @@ def guard_of(attentions: Sequence[Attention]) -> Attention | None:
     return next((a for a in attentions if "crash" in a.behaviour.charges and len(set(a.periods)) > 1), None)
 
 
-def safety(guard: Attention, distances: Values) -> Values:
+def safety(guard: Attention, looks: Looks, distances: Values) -> Values:
     """Eq (13) in every cycle, shape (n,), from where the robot is: ``distances`` (n,), m, from its centre to the
     nearest surface, which count up to sigma_max. No sensor is read for it."""
     shortest, longest, high = min(guard.periods), max(guard.periods), guard.behaviour.sigma_high
-    watched = held(guard, len(distances), [safety_at(1.0, 1.0, a.period, shortest, longest) for a in guard.log])
+    watched = held(looks, len(distances), _safety(1.0, 1.0, looks.period, shortest, longest))
     return np.minimum(distances, high) / high * watched
 
 
-def safety_held(guard: Attention, n: int) -> Values:
+def safety_held(guard: Attention, looks: Looks, n: int) -> Values:
     """Eq (13) in every cycle, shape (n,), from what the behaviour last perceived."""
     shortest, longest = min(guard.periods), max(guard.periods)
-    return held(guard, n, [safety_at(a.sigma, guard.behaviour.sigma_high, a.period, shortest, longest)
-                           for a in guard.log])
+    return held(looks, n, _safety(looks.sigma, guard.behaviour.sigma_high, looks.period, shortest, longest))
 
 
 def distances(path: Values, layout: Layout) -> Values:

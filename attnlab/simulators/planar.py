@@ -11,7 +11,7 @@ from attnlab.arithmetic import length
 from attnlab.errors import ConfigError
 from attnlab.registry import register
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
-from attnlab.simulators.robot import BEAMS, CAMERA_HEIGHT_M, FRONT, RADIUS_M, SONAR_MIN_M
+from attnlab.simulators.robot import ALONG_AND_ACROSS2, BEAMS, CAMERA_HEIGHT_M, FRONT, RADIUS_M, SONAR_MIN_M
 from attnlab.worlds.geometry import Solid
 
 
@@ -47,9 +47,12 @@ class Planar(Simulator):
         self._cubes = sum(solid.kind != "wall" for solid in solids)
         self._boxes = np.array([_row(solids[i]) for i in self._solid]).reshape(-1, 7)
         self._beams = np.array(BEAMS)
+        self._along, self._across2 = np.array(ALONG_AND_ACROSS2).T.copy()
         self._front = self._beams[:len(FRONT)].copy()
         self._ranges = {count: np.zeros(count) for count in range(1, len(BEAMS) + 1)}
-        self._seen = np.zeros((self._cubes, 4))
+        self._seen, self._found = np.zeros((self._cubes, 4)), 0
+        self._kinds = [solids[i].kind for i in self._solid]
+        self._safety_m = context.safety_distance_m or 0.0
 
     def sonar(self, count: int = len(BEAMS)) -> list[float]:
         ranges = self._ranges[count]
@@ -73,7 +76,7 @@ class Planar(Simulator):
         if cycles >= len(self.trace) - self.cycle:
             raise IndexError(f"{cycles} more cycles than the {len(self.trace) - 1} of an episode")
         moved = self._advance(self.trace, self.cycle, self._boxes, v, w, self.dt_s, cycles, RADIUS_M,
-                              self.safety_distance_m or 0.0, self._front, self.params.sonar_range_m, SONAR_MIN_M)
+                              self._safety_m, self._front, self.params.sonar_range_m, SONAR_MIN_M)
         if moved < 0:
             self.cycle -= moved
             return -moved, True

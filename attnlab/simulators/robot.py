@@ -25,7 +25,7 @@ SONAR_MIN_M = 0.1
 # r + o along the ray, p across: the hit point's distance from the centre is the length of (r + along, across).
 _ALONG = tuple(x * cos(a) + y * sin(a) for x, y, a in SONARS)
 _ACROSS = tuple(-x * sin(a) + y * cos(a) for x, y, a in SONARS)
-_ALONG_AND_ACROSS2 = tuple((o, p * p) for o, p in zip(_ALONG, _ACROSS, strict=True))
+ALONG_AND_ACROSS2 = tuple((o, p * p) for o, p in zip(_ALONG, _ACROSS, strict=True))
 # Simulated beams start where their line passes nearest to the centre, well inside the footprint, because the rear ones
 # stand out of it by 6 mm and could otherwise start inside a wall: (foot x m, foot y m, cos, sin, m from foot to ring).
 BEAMS = tuple((x - o * cos(a), y - o * sin(a), cos(a), sin(a), o) for (x, y, a), o in zip(SONARS, _ALONG, strict=True))
@@ -33,7 +33,7 @@ BEAMS = tuple((x - o * cos(a), y - o * sin(a), cos(a), sin(a), o) for (x, y, a),
 
 def centre_distances(ranges_m: list[float]) -> list[float]:
     """Sonar ranges (m, from the ring) as distances of the echoes from the robot's centre; the first n sonars of n."""
-    return [sqrt((r + o) * (r + o) + pp) for r, (o, pp) in zip(ranges_m, _ALONG_AND_ACROSS2, strict=False)]
+    return [sqrt((r + o) * (r + o) + pp) for r, (o, pp) in zip(ranges_m, ALONG_AND_ACROSS2, strict=False)]
 
 
 def arc(x: float, y: float, heading: float, v: float, w: float, dt: float) -> tuple[float, float, float]:

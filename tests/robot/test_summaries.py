@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from attnlab.attention import Activation, Log
 from attnlab.robot.episode import run_episode
 from attnlab.robot.plan import RunPlan
 from attnlab.robot.summaries import bouts, distances, guard_of, safety, safety_held, turning
@@ -19,7 +20,7 @@ from attnlab.worlds.base import Layout, outer_walls
 def guard(*looks, periods=(1, 4, 8, 12)):
     """AVOID's clock that looked at (cycle, sigma, period granted)."""
     behaviour = SimpleNamespace(charges=("crash",), sigma_high=1.0)
-    log = [SimpleNamespace(cycle=cycle, sigma=sigma, period=period) for cycle, sigma, period in looks]
+    log = Log(Activation(cycle, sigma, 0, 0, period, 0.0, 0.0, True, None, None) for cycle, sigma, period in looks)
     return SimpleNamespace(behaviour=behaviour, log=log, periods=list(periods))
 
 
@@ -28,8 +29,8 @@ def test_safety_is_from_where_the_robot_is():
     (0.5 m) is another series."""
     clock = guard((0, 0.5, 1), (1, 0.5, 4), (5, 0.5, 12))
     at = np.array([0.2, 0.4, 0.6, 0.8, 3.0, 0.9, 0.9])
-    assert safety(clock, at) == pytest.approx([0.2, 0.4 * 8 / 11, 0.6 * 8 / 11, 0.8 * 8 / 11, 8 / 11, 0.0, 0.0])
-    assert safety_held(clock, 7) == pytest.approx([0.5, *[0.5 * 8 / 11] * 4, 0.0, 0.0])
+    assert safety(clock, clock.log.columns(), at) == pytest.approx([0.2, 0.4 * 8 / 11, 0.6 * 8 / 11, 0.8 * 8 / 11, 8 / 11, 0.0, 0.0])
+    assert safety_held(clock, clock.log.columns(), 7) == pytest.approx([0.5, *[0.5 * 8 / 11] * 4, 0.0, 0.0])
 
 
 def test_who_guards():

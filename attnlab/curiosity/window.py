@@ -1,0 +1,24 @@
+"""The last percepts of a behaviour."""
+
+from __future__ import annotations
+
+
+class Window:
+    """The last ``length`` of the percepts that were added (0 to ``bins`` - 1); ``visits``: how often each is in it."""
+
+    def __init__(self, length: int, bins: int):
+        self.last, self.at = [-1] * length, 0  # a ring: at ``at`` the oldest, -1 while it is not full
+        self.visits = [0] * bins
+
+    def oldest(self) -> int:
+        """The one that the next pushes out; -1 if there is room."""
+        return self.last[self.at]
+
+    def add(self, percept: int) -> None:
+        """See this percept."""
+        old = self.last[self.at]
+        if old >= 0:
+            self.visits[old] -= 1
+        self.visits[percept] += 1
+        self.last[self.at] = percept
+        self.at = (self.at + 1) % len(self.last)
