@@ -27,7 +27,8 @@ class Wander(Behaviour):
         self._until, self._direction = -1, 0.0
 
     def percept(self, now: Senses) -> float:
-        return min(self.sigma_high, min(now.front_distances()[2:6]))
+        ahead = min(now.front_distances()[2:6])
+        return min(self.sigma_high, ahead)
 
     def command(self, now: Senses, sigma: float) -> Command:
         if now.cycle >= self._until:

@@ -115,7 +115,8 @@ class Body:
         for i, need in enumerate(self.needs):
             if self._limits[i] == inf:
                 continue
-            left = self._limits[i] - self._floor(need_after_cycle(self.values[i], need.per_activation, active, eaten[i]))
+            grown = need_after_cycle(self.values[i], need.per_activation, active, eaten[i])
+            left = self._limits[i] - self._floor(grown)
             if left - need.per_cycle <= 0:
                 return 1
             if need.per_cycle > 0:

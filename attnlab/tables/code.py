@@ -58,5 +58,6 @@ def package_hash() -> str:
 
 
 NUMBERS = frozenset({  # packages and modules whose text decides what a run computes
-    "arithmetic", "attention", "compiled", "config", "cycle", "equations", "reading", "settings", "streams", "behaviours", "curiosity",
-    "exploration", "fusion", "kernels", "learners", "needs", "penalty", "robot", "simulators", "tables", "worlds"})
+    "arithmetic", "attention", "compiled", "config", "cycle", "equations", "reading", "settings", "streams",
+    "behaviours", "curiosity", "exploration", "fusion", "kernels", "learners", "needs", "penalty", "robot",
+    "simulators", "tables", "worlds"})

@@ -29,8 +29,9 @@ def test_safety_is_from_where_the_robot_is():
     (0.5 m) is another series."""
     clock = guard((0, 0.5, 1), (1, 0.5, 4), (5, 0.5, 12))
     at = np.array([0.2, 0.4, 0.6, 0.8, 3.0, 0.9, 0.9])
-    assert safety(clock, clock.log.columns(), at) == pytest.approx([0.2, 0.4 * 8 / 11, 0.6 * 8 / 11, 0.8 * 8 / 11, 8 / 11, 0.0, 0.0])
-    assert safety_held(clock, clock.log.columns(), 7) == pytest.approx([0.5, *[0.5 * 8 / 11] * 4, 0.0, 0.0])
+    looks = clock.log.columns()
+    assert safety(clock, looks, at) == pytest.approx([0.2, 0.4 * 8 / 11, 0.6 * 8 / 11, 0.8 * 8 / 11, 8 / 11, 0.0, 0.0])
+    assert safety_held(clock, looks, 7) == pytest.approx([0.5, *[0.5 * 8 / 11] * 4, 0.0, 0.0])
 
 
 def test_who_guards():
