@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from attnlab.launch.jobs import Job
 from attnlab.launch.progress import Display
+from attnlab.settings import setting
 
 
 def cores() -> int:
@@ -16,9 +18,18 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+@dataclass
+class Patience:
+    """A setting of every cluster."""
+    stop_after: int = setting(10, "runs that failed with the same last line after which the sweep stops; 0: never",
+                              unit="runs", low=0)
+
+
 class Cluster(ABC):
-    """Does the runs of a study, somewhere. It changes no number: it is in no run's key."""
+    """Does the runs of a study, somewhere. It changes no number: it is in no run's key. ``waits``: for the runs that
+    other commands are at, until all are done."""
     name: str
+    waits = True
 
     def __init__(self, params: Any, context: None = None):
         self.params = params

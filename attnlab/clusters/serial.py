@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from attnlab.clusters.base import Cluster
+from attnlab.clusters.base import Cluster, Patience
 from attnlab.launch.jobs import Job
 from attnlab.launch.progress import Display
 from attnlab.launch.shared import LOOK_S, Shared
@@ -20,8 +21,12 @@ class Serial(Cluster):
     """One run after the other, in this process: for debuggers, profilers, and machines that allow no processes. A run
     that crashes in C takes the rest with it; the same command goes on."""
 
+    @dataclass
+    class Params(Patience):
+        pass
+
     def run(self, jobs: Sequence[Job], display: Display) -> None:
-        shared = Shared(jobs, display)
+        shared = Shared(jobs, display, self.waits)
         while shared:
             found = shared.next()
             if found is None:

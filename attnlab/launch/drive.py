@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from attnlab.config import RunSettings
+from attnlab.config import COSMETIC, RunSettings
 from attnlab.launch import robots
 from attnlab.launch.jobs import OTHER_CODE, Job, split
 from attnlab.launch.progress import Display
@@ -37,8 +37,6 @@ def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
               file=sys.stderr)
     failed = _run(todo, folder) if todo else []
     _show(folder, jobs, settings, typed)
-    for job, cause in failed[:10]:
-        print(f"failed: {job.folder}: {cause}", file=sys.stderr)
     if failed:
         print(f"{len(failed)} of {len(jobs)} runs failed; the traceback is in run.json of each. The same command runs "
               "them again.", file=sys.stderr)
@@ -53,7 +51,7 @@ def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> None:
         asked.setdefault(job.of.key, (job.of, []))[1].append((job.run, job.key, job.settings.seed))
     before = recovered(folder) if folder.is_dir() and not (folder / FILE).exists() else None
     study = grow(folder, as_typed(typed), list(asked.values()), jobs[0].settings.labels, code(), jobs[0].claims,
-                 before)
+                 before, {name: jobs[0].config[name] for name in sorted(COSMETIC) if name in jobs[0].config})
     names = {condition.key: condition.name for condition in study.conditions}
     homes = {run.key: run.name for run in study.runs}
     for job in jobs:
@@ -69,8 +67,9 @@ def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
           f"{cluster.at_once(todo)} at a time", flush=True)
     if line := robots.at_start(todo):
         print(line, flush=True)
-    with Display(len(todo), episodes) as display:
+    with Display(len(todo), episodes, getattr(cluster.params, "stop_after", 0)) as display:
         cluster.run(todo, display)
+    display.print_failed(folder)
     return display.failed
 
 

@@ -58,9 +58,10 @@ class Job:
                 "condition": self.of.name, "code": code(), "claims": self.claims}
 
 
-def condition_of(config: Mapping[str, Any], swept: Mapping[str, Any]) -> Condition:
-    """The condition of a run with this config. ``swept``: what sets it apart, by setting."""
-    return Condition(condition_key(config), condition_config(config), dict(swept))
+def condition_of(config: Mapping[str, Any], swept: Mapping[str, Any], overrides: Sequence[str] = ()) -> Condition:
+    """The condition of a run with this config. ``swept``: what sets it apart, by setting; ``overrides``: as typed."""
+    return Condition(condition_key(config), condition_config(config), dict(swept), overrides=list(overrides),
+                     columns=dict(swept))
 
 
 def make_job(plan: RunPlan, overrides: Sequence[str], swept: Mapping[str, Any], named: Sequence[str],

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
+from collections import Counter
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from attnlab.launch.jobs import Job
@@ -12,6 +14,12 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 PLAIN_EVERY_S = 15.0
+LONGEST = 400  # characters of an error that are shown
+
+
+def shorten(text: str, most: int) -> str:
+    """A line of bearable length."""
+    return text if len(text) <= most else text[:most - 4] + " ..."
 
 
 class Display:
@@ -20,8 +28,8 @@ class Display:
     Use as a context manager around the work.
     """
 
-    def __init__(self, runs: int, episodes: int):
-        self.runs, self.episodes = runs, episodes
+    def __init__(self, runs: int, episodes: int, stop_after: int = 0):
+        self.runs, self.episodes, self.stop_after = runs, episodes, stop_after
         self.done_runs = self.done_episodes = self.cycles = 0
         self.failed: list[tuple[Job, str]] = []
         self._started = self._last_plain = time.monotonic()
@@ -51,6 +59,13 @@ class Display:
         """Machine cycles a second of wall time, over all runs."""
         return self.cycles / max(1e-9, time.monotonic() - self._started)
 
+    @property
+    def hopeless(self) -> str:
+        """The last line that too many runs failed with; empty if there is none."""
+        lines = Counter(line for _, line in self.failed)
+        line, count = lines.most_common(1)[0] if lines else ("", 0)
+        return line if self.stop_after and count >= self.stop_after else ""
+
     def advance(self, episodes: int, cycles: int) -> None:
         self.done_episodes += episodes
         self.cycles += cycles
@@ -74,11 +89,19 @@ class Display:
         """A run ended, well or not."""
         self.done_runs += 1
         if about.get("status") != "complete":
-            lines = (about.get("error") or "no reason was stored").strip().splitlines()
-            self.failed.append((job, lines[-1]))
-            line = f"  failed: {job.run}: {lines[-1]}"
+            lines = str(about.get("error") or "").strip().splitlines() or ["no reason was stored"]
+            self.failed.append((job, shorten(lines[-1], LONGEST)))
+            line = f"  failed: {job.run}: {self.failed[-1][1]}"
             if self._bar:
                 self._bar.console.print(line, markup=False, highlight=False)
             else:
                 print(line, file=sys.stderr, flush=True)
         self.tick()
+
+    def print_failed(self, folder: Path) -> None:
+        """On standard error: which runs failed, and why nothing more was begun."""
+        for job, cause in self.failed[:10]:
+            print(f"failed: {folder / job.run}: {cause}", file=sys.stderr)
+        if self.hopeless:
+            print(f"stopped: {self.stop_after} runs failed alike, and {self.runs - self.done_runs} were not begun: "
+                  f"{self.hopeless}. cluster.stop_after=0 goes on", file=sys.stderr)

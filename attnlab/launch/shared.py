@@ -18,11 +18,12 @@ LOOK_S = 1.0  # between two looks at what others do
 class Shared:
     """Hands out jobs, each with a claim that nobody else has. What others did meanwhile counts as done.
 
-    ``mine``: do only what nobody does; do not wait for what others are at."""
+    ``waits``: for what others are at, until it is done too. After too many runs that failed alike nothing more is
+    handed out."""
 
-    def __init__(self, jobs: Sequence[Job], display: Display, mine: bool = False):
+    def __init__(self, jobs: Sequence[Job], display: Display, waits: bool = True):
         self.waiting, self.elsewhere = deque(jobs), list[Job]()
-        self.display, self.mine = display, mine
+        self.display, self.waits = display, waits
         self._looked = time.monotonic()
         for study in {job.folder.parent for job in jobs}:
             sweep(study)
@@ -33,13 +34,15 @@ class Shared:
 
     def next(self) -> tuple[Job, Claim] | None:
         """A job to do now, None if there is none at this moment."""
+        if self.display.hopeless:
+            self.give_up()
         if not self.waiting and self.elsewhere:
             self._look()
         while self.waiting:
             job = self.waiting.popleft()
             claim = take(job.folder.parent, job.key)
             if claim is None:
-                if not self.mine:
+                if self.waits:
                     self.elsewhere.append(job)
                 continue
             about = done_by_others(job)

@@ -108,7 +108,7 @@ class StudySweeper(Sweeper):
 def _of_condition(config: dict[str, Any], overrides: list[str], values: dict[str, Any], named: list[str],
                   seed: Override | None) -> Iterator[Job]:
     """The jobs of a condition, one a seed; its config is checked once, its world for every seed."""
-    condition = condition_of(config, values)
+    condition = condition_of(config, values, overrides)
     numbers = [config["seed"]] if seed is None else [int(o.partition("=")[2]) for o in _choices(seed)]
     plan = None
     for number in numbers:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import faulthandler
 import os
 import signal
 import time
@@ -16,6 +17,7 @@ from attnlab.tables.claim import Claim
 from attnlab.tables.processes import end_with_parent
 
 REPORT_S = 0.25
+WHERE = ".where"  # in the run's folder: where it was when somebody asked
 COMPLETE, FAILED, ORPHAN, LOST = 0, 1, 3, 4  # exit codes
 
 
@@ -23,10 +25,15 @@ def work(config: dict[str, Any], folder: str, info: dict[str, Any], pipe: Connec
          ) -> None:
     """Run, and tell the parent how far (episodes, cycles) about four times a second. Ends as soon as the parent is
     gone, leaving a run that says it was running."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's; it ends this process
+    for number in (signal.SIGINT, signal.SIGTERM):  # they are the parent's, who ends this process
+        signal.signal(number, signal.SIG_IGN)
     end_with_parent()
     load_all()
-    last = 0.0
+    last, where = 0.0, Path(folder) / WHERE
+    with contextlib.suppress(OSError, AttributeError):  # a system without that signal
+        where.parent.mkdir(parents=True, exist_ok=True)
+        faulthandler.register(signal.SIGUSR1, where.open("w"))
+        pipe.send((0, 0))  # from here on its time counts
 
     def progress(episodes: int, cycles: int) -> None:
         nonlocal last
@@ -45,4 +52,6 @@ def work(config: dict[str, Any], folder: str, info: dict[str, Any], pipe: Connec
         with contextlib.suppress(OSError):
             pipe.send(f"{cause.filename or folder}: {cause.strerror}")
         code = FAILED
+    with contextlib.suppress(OSError):
+        where.unlink(missing_ok=True)
     os._exit(code)  # no clean-up in C libraries that could crash after the results are safe

@@ -31,11 +31,12 @@ def load(*studies: str | Path) -> Study | Studies:
     Raises ConfigError if there is none."""
     if not studies:
         raise ConfigError("load", "names no study", 'load("outputs/cr_vs_ncr")')
-    found = [Study(_folder(study)) for study in studies]
+    found = [Study(folder_of(study)) for study in studies]
     return found[0] if len(found) == 1 else Studies(found)
 
 
-def _folder(study: str | Path) -> Path:
+def folder_of(study: str | Path) -> Path:
+    """A study's folder, by its path or its name in outputs/. Raises ConfigError."""
     path = Path(study)
     if not path.is_dir() and (Path("outputs") / path).is_dir():
         path = Path("outputs") / path

@@ -29,13 +29,16 @@ class Condition:
     """Runs that differ in their seed alone.
 
     ``key``: of its config; ``name``: its one name, everywhere; ``settings``: those that set it apart from the others,
-    by dotted name; ``config``: resolved, without seed and cosmetic settings.
+    by dotted name; ``config``: resolved, without seed and cosmetic settings; ``overrides``: as typed, without the seed;
+    ``columns``: swept settings that are columns of its tables.
     """
     key: str
     config: dict[str, Any]
     settings: dict[str, Any]
     name: str = ""
     label: str = ""
+    overrides: list[str] = field(default_factory=list)
+    columns: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass
@@ -50,7 +53,8 @@ class Asked:
 @dataclass
 class StudyFile:
     """The content of a study.json. ``axes``: names of the settings that set conditions apart, those that were swept
-    first; ``labels``: what values are called; ``claims``: name and sha256 of the claims file, or None."""
+    first; ``labels``: what values are called; ``claims``: name and sha256 of the claims file, or None; ``cosmetic``:
+    the settings of the last command that change no number."""
     schema: int = SCHEMA
     commands: list[dict[str, Any]] = field(default_factory=list)
     axes: list[str] = field(default_factory=list)
@@ -60,6 +64,7 @@ class StudyFile:
     code: dict[str, Any] = field(default_factory=dict)
     claims: dict[str, str] | None = None
     notes: list[str] = field(default_factory=list)
+    cosmetic: dict[str, Any] = field(default_factory=dict)
 
     def by_name(self) -> dict[str, Condition]:
         return {condition.name: condition for condition in self.conditions}
@@ -73,6 +78,7 @@ class StudyFile:
             self.conditions.append(known := condition)
         else:
             known.settings.update(condition.settings)
+            known.overrides, known.columns = condition.overrides, condition.columns
         keys = {run.key: run for run in self.runs}
         for name, key, seed in runs:
             if key in keys:
@@ -127,7 +133,7 @@ def read_study(folder: Path) -> StudyFile | None:
 
 def grow(folder: Path, typed: Sequence[str], conditions: Sequence[tuple[Condition, Sequence[tuple[str, str, int]]]],
          labels: Mapping[str, str], code: Mapping[str, Any], claims: Mapping[str, str] | None,
-         before: StudyFile | None = None) -> StudyFile:
+         before: StudyFile | None = None, cosmetic: Mapping[str, Any] | None = None) -> StudyFile:
     """Add what a command asks for to the study's file, and return it whole. ``before``: what the folder's runs say of a
     study that has no file yet."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -136,6 +142,7 @@ def grow(folder: Path, typed: Sequence[str], conditions: Sequence[tuple[Conditio
         study.commands.append({"typed": list(typed), "time": time.strftime("%Y-%m-%dT%H:%M:%S%z"), **code})
         study.labels.update({str(value): str(label) for value, label in labels.items()})
         study.code, study.claims = dict(code), dict(claims) if claims else None
+        study.cosmetic = dict(cosmetic or {})
         for condition, runs in conditions:
             study.add(condition, runs)
         study.rehome(folder, {key: name for _, runs in conditions for name, key, _ in runs})

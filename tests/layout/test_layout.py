@@ -35,13 +35,15 @@ FLOORS = (
     ("launch",),
     ("clusters",),
     ("cli", "testing"),
-    ("certify", "appraise", "replay", "gym", "fig1", "plot", "parts", "new", "api", "clock", "__main__"),
+    ("certify", "appraise", "replay", "gym", "fig1", "plot", "parts", "new", "retry", "work",
+     "api", "clock", "__main__"),
     ("render",),
 )
 TOP = {  # modules that are no commands
     "__init__", "api", "arithmetic", "attention", "clock", "config", "console", "cycle", "equations", "errors",
     "groups", "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
-COMMANDS = {"__main__", "fig1", "new", "parts"}  # thin modules for python -m; the others are packages with __main__
+# thin modules for python -m; the others are packages with __main__
+COMMANDS = {"__main__", "fig1", "new", "parts", "retry", "work"}
 NO_CODE = {"plugins", "templates"}
 ROBOT = {"robot", "attention", "cycle"}
 READER = {"results", "stats", "measures", "figures", "claims", "audit", "report"}
