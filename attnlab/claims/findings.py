@@ -14,11 +14,14 @@ class Finding(StrEnum):
     meaning: str
 
     REPRODUCED = ("reproduced", "yes", "v-reproduced", "green",
-                  "the claimed direction is clear over seeds, and the paper's number (if it gives one) is met")
+                  "the same as the paper's number: the whole interval lies within the tolerance")
+    COMPATIBLE = ("direction, number compatible", "num.", "v-compatible", "bright_green",
+                  "the claimed direction is clear, and the paper's number is among what it may be")
     DIRECTION = ("direction only", "dir.", "v-direction", "cyan",
-                 "the claimed direction is clear, the number is not met")
+                 "the claimed direction is clear; the paper's number is missed, not known, or there is none")
     NOT = ("not reproduced", "no", "v-not", "", "the interval over seeds allows either side")
-    CONTRADICTED = ("contradicted", "opp.", "v-contradicted", "red", "the opposite direction is clear")
+    CONTRADICTED = ("contradicted", "opp.", "v-contradicted", "red",
+                    "the opposite is clear, also after Holm's correction for the comparisons of the claim")
     UNTESTABLE = ("untestable", "?", "v-untestable", "dim", "the runs cannot say")
 
     def __new__(cls, word: str, letter: str, css: str, style: str, meaning: str) -> Finding:
@@ -30,7 +33,9 @@ class Finding(StrEnum):
     @property
     def holds(self) -> bool:
         """Is the claimed direction there beyond the uncertainty?"""
-        return self in (Finding.REPRODUCED, Finding.DIRECTION)
+        return self in (Finding.REPRODUCED, Finding.COMPATIBLE, Finding.DIRECTION)
 
 
-WORST_FIRST = (Finding.CONTRADICTED, Finding.UNTESTABLE, Finding.NOT, Finding.DIRECTION, Finding.REPRODUCED)
+WORST_FIRST = (Finding.CONTRADICTED, Finding.UNTESTABLE, Finding.NOT, Finding.DIRECTION, Finding.COMPATIBLE,
+               Finding.REPRODUCED)
+RANK = {finding: rank for rank, finding in enumerate(WORST_FIRST)}

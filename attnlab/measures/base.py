@@ -30,11 +30,15 @@ class Measure(ABC):
             def of(self, runs: Runs) -> dict[int, float]:
                 return self.mean_of(runs, "meals", "validation")
 
-    ``unit`` may be set in ``__init__`` when it depends on the parameters. ``compares_seeds``: is a seed's value about
-    how it differs from the others, so that it changes with them? Draws nothing at random; a measure that must draw
-    takes its own fixed seed, so that a report is the same twice.
+    ``unit`` may be set in ``__init__`` when it depends on the parameters. ``bounds``: the least and the most that it
+    can be, so that a rule that cannot fail is refused. ``censored``: may a seed's value be inf, for what had not
+    happened when watching ended? ``compares_seeds``: is a seed's value about how it differs from the others, so that it
+    changes with them? Draws nothing at random; a measure that must draw takes its own fixed seed, so that a report is
+    the same twice.
     """
     unit = "1"
+    bounds: tuple[float, float] = (float("-inf"), float("inf"))
+    censored = False
     compares_seeds = False
 
     def __init__(self, params: Any, context: Any = None):

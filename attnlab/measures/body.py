@@ -3,27 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 from attnlab.measures.base import CannotMeasure, Measure, Phase
-from attnlab.measures.needs import OF_THE_PAPER, falls
 from attnlab.registry import register
 from attnlab.settings import setting
 
 if TYPE_CHECKING:
-    import numpy as np
     import pandas as pd
 
     from attnlab.results.conditions import Runs
-
-
-def consumed(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """(cycles of the meals, cycles of the drinks): where hunger and thirst fall."""
-    for need in OF_THE_PAPER:
-        if rows[need].isna().any():
-            raise CannotMeasure(f"the robot has no {need}")
-    return falls(rows, "hunger"), falls(rows, "thirst")
 
 
 @register("measure", "energy_margin")
@@ -42,56 +31,61 @@ class EnergyMargin(Measure):
         return {seed: value - well for seed, value in values.items()}
 
 
+@register("measure", "above_well")
+class AboveWell(Measure):
+    """Share of the episodes (%) in which energy never falls below the reading's E_well (eq 11)."""
+    unit = "%"
+    bounds = (0.0, 100.0)
+
+    @dataclass
+    class Params:
+        phase: Phase = setting("validation", "which episodes")
+
+    def of(self, runs: Runs) -> dict[int, float]:
+        well = runs.reading().energy_well
+        rows = self.episodes(runs, self.params.phase)
+        return self.means(rows.assign(above=100.0 * (rows["energy_min"] >= well)), "above")
+
+
+@dataclass
+class _Bouts:
+    phase: Phase = setting("validation", "which episodes")
+    least: int = setting(6, "bouts an episode needs to count", low=3)
+
+
+def _bouts(runs: Runs, p: _Bouts) -> pd.DataFrame:
+    """Episodes with enough bouts of eating and drinking (looks at food less than 60 cycles apart are one bout)."""
+    rows = Measure.episodes(runs, p.phase)
+    rows = rows[rows["bouts"] >= p.least]
+    if not len(rows):
+        raise CannotMeasure(f"no {p.phase} episode has {p.least} bouts of eating and drinking")
+    return rows
+
+
 @register("measure", "alternation")
 class Alternation(Measure):
-    """Share of neighbouring meals and drinks of the last recorded episode that differ in kind, beyond the share that
-    the same ones have in a random order, 2nm / (n+m)(n+m-1), in percent points. A meal and a drink in one cycle count
-    as different."""
+    """Share of bouts that follow one of the other kind, beyond the most that a random order has, N / 2(N - 1) of N
+    bouts half of which are meals; in percent points, mean over the episodes with ``least`` bouts. nan for a seed
+    without such an episode."""
     unit = "%"
+    bounds = (-60.0, 50.0)
+    Params = _Bouts
 
     def of(self, runs: Runs) -> dict[int, float]:
-        found = {}
-        for seed, rows in self.last_cycles(runs).items():
-            meals, drinks = consumed(rows)
-            n, m = len(meals), len(drinks)
-            if not n or not m:
-                found[seed] = float("nan")
-                continue
-            order = sorted([(int(t), "meal") for t in meals] + [(int(t), "drink") for t in drinks])
-            kinds = [kind for _, kind in order]
-            differ = sum(a != b for a, b in pairwise(kinds)) / (n + m - 1)
-            found[seed] = 100 * (differ - 2 * n * m / ((n + m) * (n + m - 1)))
-        if all(value != value for value in found.values()):
-            raise CannotMeasure("no recorded episode has both a meal and a drink")
-        return found
+        rows = _bouts(runs, self.params)
+        n = rows["bouts"]
+        beyond = 100.0 * (rows["bout_switches"] / (n - 1) - n / (2 * (n - 1)))
+        return {**dict.fromkeys(sorted(runs.runs), float("nan")), **self.means(rows.assign(beyond=beyond), "beyond")}
 
 
-@register("measure", "rhythm")
-class Rhythm(Measure):
-    """Share of the power of hunger - thirst that is in its spectral peak, in %, in the last recorded episode."""
+@register("measure", "bout_variation")
+class BoutVariation(Measure):
+    """Coefficient of variation (%) of the cycles from the start of a bout to that of the next, mean over the episodes
+    with ``least`` bouts: 0 for a perfect rhythm. nan for a seed without such an episode."""
     unit = "%"
+    Params = _Bouts
 
     def of(self, runs: Runs) -> dict[int, float]:
-        from attnlab.stats import rhythm
-        found = {}
-        for seed, rows in self.last_cycles(runs).items():
-            consumed(rows)  # says which need is missing
-            found[seed] = 100 * rhythm((rows["hunger"] - rows["thirst"]).to_numpy(float)).share
-        return found
-
-
-@register("measure", "meal_variation")
-class MealVariation(Measure):
-    """Coefficient of variation (%) of the cycles between one meal and the next, and one drink and the next, in the
-    last recorded episode: 0 for a perfect rhythm. nan for a seed with fewer than three of both."""
-    unit = "%"
-
-    def of(self, runs: Runs) -> dict[int, float]:
-        import numpy as np
-        found = {}
-        for seed, rows in self.last_cycles(runs).items():
-            gaps = [np.diff(times) for times in consumed(rows) if len(times) > 2]
-            found[seed] = 100 * float(np.mean([g.std(ddof=1) / g.mean() for g in gaps])) if gaps else float("nan")
-        if all(value != value for value in found.values()):
-            raise CannotMeasure("no recorded episode has three meals or three drinks")
-        return found
+        rows = _bouts(runs, self.params)
+        varies = 100.0 * rows["bout_interval_sd"] / rows["bout_interval_mean"]
+        return {**dict.fromkeys(sorted(runs.runs), float("nan")), **self.means(rows.assign(varies=varies), "varies")}

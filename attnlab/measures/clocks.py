@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from attnlab.measures.base import Measure, Phase
+from attnlab.measures.frames import of_seeds, phase_rows
+from attnlab.measures.once import once_a_study
 from attnlab.measures.rewards import BEHAVIOUR, behaviours_of, mean_sums
 from attnlab.registry import register
 from attnlab.settings import setting
 
 if TYPE_CHECKING:
-    from attnlab.results.conditions import Runs
-
+    from attnlab.results.conditions import Conditions, Runs
 
 
 @register("measure", "activations")
@@ -39,6 +40,7 @@ class Activations(Measure):
 class ActivationSaving(Measure):
     """How many activations fewer than one every cycle, in %: 100 (1 - activations / cycles), for each behaviour."""
     unit = "%"
+    bounds = (0.0, 100.0)
 
     @dataclass
     class Params:
@@ -57,6 +59,7 @@ class ActivationSaving(Measure):
 class Overlap(Measure):
     """(sum - union) / sum of the activations of all behaviours in %: 0 if never two are active in one cycle."""
     unit = "%"
+    bounds = (0.0, 100.0)
 
     @dataclass
     class Params:
@@ -71,19 +74,34 @@ class Overlap(Measure):
 
 @register("measure", "overlap_excess")
 class OverlapExcess(Measure):
-    """Overlap of the last recorded episode less the mean of its random-phase null, in percent points.
+    """Overlap less what the same activations have at random phases, in percent points, mean over episodes.
 
-    Below 0: behaviours make room for each other; above 0: they fire together more than by chance. Draws the random
-    phases with a fixed seed.
+    Below 0: behaviours make room for each other; above 0: they fire together more than by chance. An episode without
+    an activation has none.
     """
     unit = "%"
+    bounds = (-100.0, 100.0)
+
+    @dataclass
+    class Params:
+        phase: Phase = setting("validation", "which episodes")
 
     def of(self, runs: Runs) -> dict[int, float]:
-        from attnlab.stats import overlap_null, overlap_ratio
-        found = {}
-        for seed, rows in self.last_cycles(runs).items():
-            columns = [name for name in rows.columns if name.endswith("_active") and rows[name].notna().all()]
-            active = rows[columns].to_numpy(bool)
-            seen = overlap_ratio(int(active.sum()), int(active.any(axis=1).sum()))
-            found[seed] = 100 * (seen - float(overlap_null(active, 200, seed).mean()))
-        return found
+        self.check_episodes(runs, self.params.phase, table="behaviours")
+        return of_seeds(runs, _excess(runs.conditions, self.params.phase))
+
+
+@once_a_study
+def _excess(conditions: Conditions, phase: str) -> dict[str, float]:
+    """Run -> mean excess of overlap (%)."""
+    import numpy as np
+    of = phase_rows(conditions, "behaviours", phase)
+    each = of.groupby(["run", "episode", "behaviour"], observed=True)["activations"].sum().unstack(fill_value=0)
+    rows = phase_rows(conditions, "episodes", phase).set_index(["run", "episode"]).loc[each.index]
+    acts, cycles = each.to_numpy(float), rows["cycles"].to_numpy(float)
+    total = acts.sum(axis=1)
+    chance = cycles * (1 - np.prod(1 - acts / cycles[:, None], axis=1))
+    with np.errstate(invalid="ignore", divide="ignore"):  # chance_overlap, for all episodes at once
+        excess = 100 * (chance - rows["active_cycles"].to_numpy(float)) / total
+    return {str(run): float(value) for run, value in rows.assign(excess=excess)["excess"].groupby(
+        level="run", observed=True).mean().items()}

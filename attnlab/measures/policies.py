@@ -30,7 +30,7 @@ def _levels(conditions: Conditions) -> dict[tuple[str, str], list[str]]:
 
 
 @once_a_study
-def _learned(conditions: Conditions) -> dict[tuple[str, str, str], dict[int, int]]:
+def _learned(conditions: Conditions, least_visits: int) -> dict[tuple[str, str, str], dict[int, int]]:
     """(run, behaviour, curiosity level or any) -> percept -> learned period, as :func:`greedy` says."""
     rows = conditions.frame("policy").astype({"behaviour": "category", "curiosity_level": "category"})
     state = ["run", "behaviour", "curiosity_level", "period", "percept"]
@@ -45,15 +45,16 @@ def _learned(conditions: Conditions) -> dict[tuple[str, str, str], dict[int, int
         of = votes.assign(curiosity_level="any") if any_level else votes
         keys = ["run", "behaviour", "curiosity_level", "percept"]
         total = of.groupby([*keys, "action"], observed=True)[["visits"]].sum().reset_index()
+        total = total[total.groupby(keys, observed=True)["visits"].transform("sum") >= least_visits]
         total = total.sort_values([*keys, "visits", "action"]).drop_duplicates(keys, keep="last")
         for run, behaviour, level, percept, action in total[[*keys, "action"]].itertuples(index=False):
             found.setdefault((run, behaviour, level), {})[int(percept)] = int(action)
     return found
 
 
-def greedy(runs: Runs, behaviour: str, level: str = "any") -> dict[int, dict[int, int]]:
-    """Seed -> percept -> learned period (mc). Percepts that a seed never visited, or in which it learned no preference
-    (all values equal: a learner that does not learn), are left out.
+def greedy(runs: Runs, behaviour: str, level: str = "any", least_visits: int = 1) -> dict[int, dict[int, int]]:
+    """Seed -> percept -> learned period (mc). Percepts that a seed visited less than ``least_visits`` times, or in
+    which it learned no preference (all values equal: a learner that does not learn), are left out.
 
     The state holds the last period too, so each percept has a row a period: every row votes for its best action with
     its visits. ``level``: a curiosity level, or any (all levels vote).
@@ -64,7 +65,7 @@ def greedy(runs: Runs, behaviour: str, level: str = "any") -> dict[int, dict[int
         raise CannotMeasure(f"there is no table of a behaviour {behaviour}")
     if level not in ("any", *known):
         raise CannotMeasure(f"there is no curiosity level '{level}' (there are {', '.join(dict.fromkeys(known))})")
-    found = _learned(runs.conditions)
+    found = _learned(runs.conditions, least_visits)
     return {int(seed): dict(found.get((run, behaviour, level), {})) for seed, run in runs.runs.items()}
 
 
@@ -84,17 +85,16 @@ def in_words(policy: dict[int, int]) -> str:
 class PolicyMatch(Measure):
     """Share of percept bins (%) in which the learned period is one of those that ``pattern`` names.
 
-    Bins that a seed never visited have no learned period and are left out; a seed with fewer than ``least_bins`` has
-    no value.
+    A seed that never visited one of these bins has no value: what it would do there nobody knows.
     """
     unit = "%"
+    bounds = (0.0, 100.0)
 
     @dataclass
     class Params:
         behaviour: str = setting("drink", "whose table")
         level: str = setting("any", "curiosity level: none, low, LH, HH, or any")
         pattern: dict[Any, Any] = setting({"1-6": 12}, "bins -> period or periods, e.g. {1-4: 12, 5-6: [1, 4]}")
-        least_bins: int = setting(4, "visited bins a seed needs", low=1)
 
         def __post_init__(self) -> None:
             self.bins = parse_pattern(self.pattern)
@@ -105,11 +105,10 @@ class PolicyMatch(Measure):
         if max(wanted) != most:
             raise CannotMeasure(f"the pattern speaks of {max(wanted)} bins, the runs have {most}")
         for seed, policy in greedy(runs, self.params.behaviour, self.params.level).items():
-            known = [percept for percept in wanted if percept in policy]
-            agree = sum(policy[percept] in wanted[percept] for percept in known)
-            found[seed] = 100 * agree / len(known) if len(known) >= self.params.least_bins else float("nan")
+            agree = sum(policy.get(percept) in wanted[percept] for percept in wanted)
+            found[seed] = 100 * agree / len(wanted) if set(wanted) <= set(policy) else float("nan")
         if all(value != value for value in found.values()):
-            raise CannotMeasure(f"no seed visited {self.params.least_bins} bins of {self.params.behaviour} at level "
+            raise CannotMeasure(f"no seed visited all {len(wanted)} bins of {self.params.behaviour} at level "
                                 f"{self.params.level}")
         return found
 
@@ -132,15 +131,18 @@ def parse_pattern(pattern: dict[Any, Any]) -> dict[int, tuple[int, ...]]:
 class PolicyLevels(Measure):
     """How much more the learned periods differ between curiosity levels than between seeds of one level (% of cells).
 
-    A cell is a behaviour's percept; distance is the share of cells, visited by both, whose periods differ. For the
-    test ``permutation``: under "levels do not matter" the levels of a seed may be exchanged.
+    A cell is a behaviour's percept; distance is the share of cells, visited by both, whose periods differ. A cell with
+    fewer than ``least_visits`` counts as not visited. For the test ``permutation``: under "levels do not matter" the
+    levels of a seed may be exchanged.
     """
     unit = "%"
+    bounds = (-100.0, 100.0)
     compares_seeds = True
 
     @dataclass
     class Params:
-        levels: list[str] = setting(["low", "LH", "HH"], "curiosity levels to compare")
+        levels: list[str] = setting(["LH", "HH"], "curiosity levels to compare")
+        least_visits: int = setting(20, "updates that make a cell known", low=1)
 
         def __post_init__(self) -> None:
             if len(set(self.levels)) < 2:
@@ -155,7 +157,8 @@ class PolicyLevels(Measure):
         table = np.zeros((len(runs.runs), len(self.params.levels), len(names) * bins), np.int64)
         for j, level in enumerate(self.params.levels):
             for b, name in enumerate(names):
-                for i, (_, policy) in enumerate(sorted(greedy(runs, name, level).items())):
+                learned = greedy(runs, name, level, self.params.least_visits)
+                for i, (_, policy) in enumerate(sorted(learned.items())):
                     for percept, period in policy.items():
                         table[i, j, b * bins + percept - 1] = period
         return table

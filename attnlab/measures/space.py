@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
+from attnlab.errors import ConfigError
 from attnlab.measures.base import CannotMeasure, Measure, Phase
 from attnlab.measures.frames import of_seeds, phase_rows, split
 from attnlab.measures.once import once_a_study
@@ -60,13 +61,20 @@ class _Phase:
 
 @register("measure", "coverage")
 class Coverage(Measure):
-    """Share of the floor (%) that the robot's centre visited in a phase, or with ``footprint`` its round body."""
+    """Share (%) of the floor that the robot's centre visited in a phase, or with ``footprint`` its round body; of the
+    whole ``floor``, or of the cells that the centre of a robot can reach."""
     unit = "%"
+    bounds = (0.0, 100.0)
 
     @dataclass
     class Params:
         phase: Phase = setting("train", "which episodes")
         footprint: bool = setting(False, "count what the body touched, not the cells of its centre")
+        of: Literal["floor", "reachable"] = setting("floor", "share of what")
+
+        def __post_init__(self) -> None:
+            if self.footprint and self.of == "reachable":
+                raise ConfigError("footprint", "a body touches more than its centre can reach", "Use of: floor")
 
     def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.simulators.robot import RADIUS_M
@@ -75,7 +83,34 @@ class Coverage(Measure):
         maps = visit_maps(runs, self.params.phase)
         if self.params.footprint:
             return {seed: 100 * float(footprint_cells(v, RADIUS_M, CELL_M).mean()) for seed, v in maps.items()}
-        return {seed: 100 * float((v > 0).mean()) for seed, v in maps.items()}
+        if self.params.of == "floor":
+            return {seed: 100 * float((v > 0).mean()) for seed, v in maps.items()}
+        found = {}
+        for seed, visits in maps.items():
+            free = _reachable(runs.conditions, runs.runs[seed])
+            found[seed] = 100 * float((visits[free] > 0).mean())
+        return found
+
+
+@once_a_study
+def _reachable(conditions: Conditions, run: str) -> np.ndarray:
+    """Cells of a run's floor in which a robot's centre can be without touching anything, and gets to from the largest
+    such room; a cell visited counts too (its middle may be too near where its edge is not)."""
+    import numpy as np
+    from scipy.ndimage import label
+
+    from attnlab.simulators.robot import RADIUS_M
+    from attnlab.tables.schema import CELL_M
+    from attnlab.worlds.geometry import clearances
+    layout = conditions.layout(run)
+    assert layout is not None  # visit_maps has built it
+    visits = _map(conditions, "train", run)
+    shape = [int(np.ceil(size / CELL_M - 1e-9)) for size in (layout.width_m, layout.depth_m)]
+    x, y = np.meshgrid(*[(np.arange(n) + 0.5) * CELL_M for n in shape], indexing="ij")
+    free = clearances(np.stack([x.ravel(), y.ravel()], axis=1), layout.solids).reshape(shape) > RADIUS_M
+    rooms, count = label(free)
+    largest = rooms == 1 + int(np.argmax([(rooms == i + 1).sum() for i in range(count)])) if count else free
+    return largest | (visits > 0) if visits is not None else largest
 
 
 @register("measure", "visit_entropy")
@@ -101,10 +136,14 @@ class VisitGini(Measure):
 
 @register("measure", "curvature")
 class Curvature(Measure):
-    """Mean change of direction along the path of the last recorded episode (rad/m): smaller is smoother."""
+    """Turning a metre of path (rad/m), mean over episodes: smaller is smoother. An episode without a path has none."""
     unit = "rad/m"
 
+    @dataclass
+    class Params:
+        phase: Phase = setting("validation", "which episodes")
+
     def of(self, runs: Runs) -> dict[int, float]:
-        from attnlab.stats import curvature
-        return {seed: curvature(rows["x_m"].to_numpy(float), rows["y_m"].to_numpy(float))
-                for seed, rows in self.last_cycles(runs).items()}
+        rows = self.episodes(runs, self.params.phase)
+        bends = rows["turn_rad"] / rows["path_m"].where(rows["path_m"] > 0)
+        return self.means(rows.assign(bends=bends), "bends")

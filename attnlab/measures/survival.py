@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from attnlab.errors import ConfigError, nearest
 from attnlab.measures.base import Measure, Phase, window
 from attnlab.measures.frames import Window, of_seeds, split, window_rows
 from attnlab.measures.needs import UNIT
 from attnlab.measures.once import once_a_study
-from attnlab.registry import register
+from attnlab.registry import parts, register
 from attnlab.settings import setting
+from attnlab.tables.schema import SCHEMA
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 class Survival(Measure):
     """Survival time in % of the longest episode, mean over episodes (Fig 6)."""
     unit = "%"
+    bounds = (0.0, 100.0)
 
     @dataclass
     class Params:
@@ -38,11 +41,10 @@ class Survival(Measure):
 
 @register("measure", "survival_convergence")
 class SurvivalConvergence(Measure):
-    """Training episodes before the first block whose mean survival is at a level and stays there.
-
-    The length of the window if that never happens, so "never" compares as "late".
-    """
+    """Training episodes before the first block whose mean survival is at a level and stays there; inf for a seed in
+    which that does not happen within the window."""
     unit = "episodes"
+    censored = True
 
     @dataclass
     class Params:
@@ -52,6 +54,10 @@ class SurvivalConvergence(Measure):
 
         def __post_init__(self) -> None:
             window(self.episodes, "episodes")
+
+    def __init__(self, params: Any, context: Any = None):
+        super().__init__(params, context)
+        self.bounds = (float(params.episodes[0]), float("inf"))
 
     def of(self, runs: Runs) -> dict[int, float]:
         from attnlab.stats import convergence_episode
@@ -72,7 +78,7 @@ class Episode(Measure):
     """A number column of the table ``episodes``, mean over episodes: safety_mean, hunger_max, energy_min, meals..."""
 
     UNITS = {"survival": "1", "cycles": "mc", "active_cycles": "mc", "meals": "meals", "drinks": "drinks",
-             "path_m": "m", "wanting_mean": "1"}
+             "path_m": "m", "wanting_mean": "1", "turn_rad": "rad", "bouts": "1"}
     PREFIXES = {"safety": "1", "energy": "UoE"}
 
     @dataclass
@@ -89,14 +95,24 @@ class Episode(Measure):
         column = params.column
         of_a_need = UNIT if column.endswith(("_mean", "_max")) else ""  # also of one that a behaviour brings
         self.unit = self.UNITS.get(column) or self.PREFIXES.get(column.partition("_")[0]) or of_a_need
+        if column == "survival" or column.startswith("safety_"):
+            self.bounds = (0.0, 1.0)
+        _check_column(column)
 
     def of(self, runs: Runs) -> dict[int, float]:
         from pandas.api.types import is_numeric_dtype
-
-        from attnlab.errors import ConfigError, nearest
         self.check_episodes(runs, self.params.phase, self.params.episodes)
         rows, column = runs.conditions.frame("episodes"), self.params.column
         if column not in rows or not is_numeric_dtype(rows[column]):
             numbers = [name for name in rows.columns if is_numeric_dtype(rows[name])]
             raise ConfigError("measure.column", f"episodes has no number column '{column}'", nearest(column, numbers))
         return self.mean_of(runs, column, self.params.phase, self.params.episodes)
+
+
+def _check_column(column: str) -> None:
+    """Can a study have this number column: of the schema, a need's, or a probe's? Raises ConfigError."""
+    known = [name for name, of in SCHEMA["episodes"].items() if of.type not in ("string", "bool")]
+    probes = [name for spec in parts.values() if spec.group == "probe" and getattr(spec.cls, "table", "") == "episodes"
+              for name in getattr(spec.cls, "columns", {})]
+    if column not in (*known, *probes) and not column.endswith(("_mean", "_max")):
+        raise ConfigError("column", f"episodes has no number column '{column}'", nearest(column, [*known, *probes]))

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from attnlab.claims.judge import REPRODUCED, UNTESTABLE, Verdict
+from attnlab.claims.findings import Finding
+from attnlab.claims.judge import Verdict
 from attnlab.figures.style import GREY, WIDTH_IN, cut
 from attnlab.report.page import Section, table
 from attnlab.results.conditions import Conditions
@@ -61,9 +62,9 @@ def analyse(conditions: Conditions, judged: Mapping[str, Sequence[Verdict]]) -> 
     """Shares and main effects. Settings that always change together are one factor."""
     verdicts = list(judged.values())
     first = verdicts[0]
-    holds = np.array([[np.nan if of[i].verdict == UNTESTABLE else float(of[i].holds) for of in verdicts]
+    holds = np.array([[np.nan if of[i].verdict is Finding.UNTESTABLE else float(of[i].holds) for of in verdicts]
                       for i in range(len(first))])
-    reproduced = np.array([[of[i].verdict == REPRODUCED for of in verdicts] for i in range(len(first))])
+    reproduced = np.array([[of[i].verdict is Finding.REPRODUCED for of in verdicts] for i in range(len(first))])
     levels, defaults = _factors(conditions)
     effects = [effect for i, verdict in enumerate(first) for factor, of in levels.items()
                for effect in _effects(verdict.id, factor, np.array(of), defaults[factor], holds[i])]

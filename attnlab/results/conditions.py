@@ -79,6 +79,11 @@ class Conditions:
 
     # views
 
+    @property
+    def keyed(self) -> list[tuple[str, ...]]:
+        """(curiosity, *settings) of every condition that has runs."""
+        return list(self._by_key)
+
     @cached_property
     def curiosities(self) -> list[str]:
         """Values of curiosity, those with a label first (CR before NCR as labelled), then as they were asked for."""

@@ -123,6 +123,12 @@ class Study:
         return [name for name, (status, _, _) in self._states.items()
                 if status == "complete" and name in self._asked and name not in self._broken]
 
+    @property
+    def failed(self) -> list[str]:
+        """Names of the runs that were asked for, were started, and came to nothing: failed or damaged."""
+        return [name for name, (status, _, _) in self._states.items()
+                if name in self._asked and (status in ("failed", "damaged") or name in self._broken)]
+
     def named(self) -> dict[str, str]:
         """What the condition of each complete run is called: run -> name, in the order in which they were asked for."""
         order = {condition.name: i for i, condition in enumerate(self.file.conditions)}

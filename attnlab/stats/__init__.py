@@ -1,9 +1,16 @@
 """Statistics over seeds, and what is measured within a run. Every random draw is seeded: the same data, the same bytes.
 
-Values of one condition are arrays of shape (seeds,) or (seeds, x); intervals are percentile bootstrap intervals over
-seeds, because episodes of one robot are not independent.
+Values of one condition are arrays of shape (seeds,) or (seeds, x). Intervals are over seeds, because episodes of one
+robot are not independent: Student's t where something is decided, bootstrap bands in figures.
 """
 
+from attnlab.stats.intervals import (
+    Ends,
+    bca_interval,
+    median_interval,
+    sign_flip_p,
+    t_interval,
+)
 from attnlab.stats.seeds import (
     Interval,
     bootstrap_band,
@@ -14,11 +21,10 @@ from attnlab.stats.seeds import (
     iqm,
     mean,
     paired,
-    sign_flip_p,
 )
-from attnlab.stats.series import block_means, convergence_episode, overlap_null, overlap_ratio, rhythm
-from attnlab.stats.space import coverage, curvature, entropy_bits, footprint_cells, gini
+from attnlab.stats.series import block_means, chance_overlap, convergence_episode, overlap_ratio
+from attnlab.stats.space import coverage, entropy_bits, footprint_cells, gini
 
-__all__ = ["Interval", "block_means", "bootstrap_band", "bootstrap_interval", "convergence_episode", "coverage",
-           "curvature", "effect_size", "entropy_bits", "footprint_cells", "gini", "holm", "improvement", "iqm", "mean",
-           "overlap_null", "overlap_ratio", "paired", "rhythm", "sign_flip_p"]
+__all__ = ["Ends", "Interval", "bca_interval", "block_means", "bootstrap_band", "bootstrap_interval", "chance_overlap",
+           "convergence_episode", "coverage", "effect_size", "entropy_bits", "footprint_cells", "gini", "holm",
+           "improvement", "iqm", "mean", "median_interval", "overlap_ratio", "paired", "sign_flip_p", "t_interval"]

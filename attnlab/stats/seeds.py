@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -34,7 +34,7 @@ def iqm(values: npt.ArrayLike) -> float:
 
 
 @lru_cache(maxsize=64)
-def _resampled(n: int, resamples: int, seed: int) -> npt.NDArray[np.int64]:
+def resampled(n: int, resamples: int, seed: int) -> npt.NDArray[np.int64]:
     """Indices of bootstrap samples, shape (resamples, n)."""
     return np.random.default_rng([seed, n]).integers(0, n, (resamples, n))
 
@@ -47,7 +47,7 @@ def bootstrap_interval(values: npt.ArrayLike, statistic: str = "mean", confidenc
     value = iqm(kept) if statistic == "iqm" else mean(kept)
     if kept.size < 2:
         return Interval(value, float("nan"), float("nan"))
-    samples = kept[_resampled(kept.size, resamples, seed)]
+    samples = kept[resampled(kept.size, resamples, seed)]
     drawn = trim_mean(samples, 0.25, axis=1) if statistic == "iqm" else samples.mean(axis=1)
     tail = (1 - confidence) / 2
     low, high = np.quantile(drawn, [tail, 1 - tail])
@@ -69,7 +69,7 @@ def bootstrap_band(values: npt.ArrayLike, confidence: float = 0.95, resamples: i
     if n < 2:
         return centre, nothing, nothing.copy()
     weights = np.zeros((resamples, n))
-    np.add.at(weights, (np.arange(resamples)[:, None], _resampled(n, resamples, seed)), 1.0)
+    np.add.at(weights, (np.arange(resamples)[:, None], resampled(n, resamples, seed)), 1.0)
     with np.errstate(invalid="ignore", divide="ignore"):
         drawn = (weights @ filled) / (weights @ present.astype(float))
     tail = (1 - confidence) / 2
@@ -109,38 +109,17 @@ def improvement(treatment: npt.ArrayLike, control: npt.ArrayLike) -> float:
     return float(mannwhitneyu(a, b).statistic / (a.size * b.size))
 
 
-@lru_cache(maxsize=64)
-def _signs(n: int, draws: int, seed: int) -> tuple[npt.NDArray[np.floating[Any]], bool]:
-    """Sign patterns, shape (patterns, n), and whether they are all there are."""
-    if 2 ** n <= draws:
-        return 1.0 - 2.0 * ((np.arange(2 ** n)[:, None] >> np.arange(n)) & 1), True
-    return np.random.default_rng([seed, n]).choice([-1.0, 1.0], (draws, n)), False
-
-
-def sign_flip_p(values: npt.ArrayLike, reference: float = 0.0, draws: int = 10_000, seed: int = 0) -> float:
-    """Two-sided p value of "the mean is ``reference``" by flipping the signs of the deviations (Fisher's paired
-    permutation test): exact while 2^n <= ``draws``, else seeded draws. nan for fewer than two values."""
-    kept = _kept(values) - reference
-    if kept.size < 2:
-        return float("nan")
-    patterns, exact = _signs(kept.size, draws, seed)
-    sums, seen = abs(patterns @ kept), abs(kept.sum())
-    as_extreme = int((sums >= seen - 1e-9 * max(1.0, seen)).sum())
-    return as_extreme / len(patterns) if exact else (as_extreme + 1) / (len(patterns) + 1)
-
-
-def holm(p_values: npt.ArrayLike) -> list[float]:
-    """Holm's step-down correction, in the order given; nan stays nan and is not counted."""
+def holm(p_values: npt.ArrayLike) -> Floats:
+    """Holm's (1979) step-down correction along the first axis; nan (no test) stays nan and is not counted."""
     p = np.asarray(p_values, float)
-    adjusted = np.full(p.shape, np.nan)
-    known = np.flatnonzero(~np.isnan(p))
-    order = known[np.argsort(p[known], kind="stable")]
-    top = 0.0
-    for rank, index in enumerate(order):
-        top = max(top, min(1.0, (len(order) - rank) * p[index]))
-        adjusted[index] = top
-    listed: list[float] = adjusted.tolist()
-    return listed
+    known = ~np.isnan(p)
+    order = np.argsort(np.where(known, p, np.inf), axis=0, kind="stable")
+    rank = np.arange(len(p)).reshape(-1, *[1] * (p.ndim - 1))
+    left = np.maximum(known.sum(axis=0) - rank, 1)
+    steps = np.minimum(1.0, left * np.take_along_axis(p, order, axis=0))
+    adjusted: Floats = np.empty_like(p)
+    np.put_along_axis(adjusted, order, np.fmax.accumulate(steps, axis=0), axis=0)
+    return np.where(known, adjusted, np.nan)
 
 
 def _kept(values: npt.ArrayLike) -> Floats:

@@ -1,8 +1,6 @@
-"""What is measured along episodes and along cycles: convergence, rhythm, overlap of activations."""
+"""What is measured along episodes and along cycles: convergence, overlap of activations."""
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +19,7 @@ def block_means(episodes: npt.ArrayLike, block: int) -> npt.NDArray[np.float64]:
 def convergence_episode(episodes: npt.ArrayLike, block: int, level: float) -> float:
     """Episodes before the first block whose mean is at ``level`` or above and after which no block falls below it.
 
-    ``episodes``: one number each. The number of episodes if that never happens; nan for no episodes.
+    ``episodes``: one number each. inf if that never happens; nan for no episodes.
     """
     values = np.asarray(episodes, float)
     if not values.size:
@@ -29,30 +27,8 @@ def convergence_episode(episodes: npt.ArrayLike, block: int, level: float) -> fl
     below = np.flatnonzero(block_means(values, block) < level)
     if not below.size:
         return 0.0
-    return float(min((below[-1] + 1) * block, values.size))
-
-
-class Rhythm(NamedTuple):
-    """``share`` of the power in the spectral peak (0-1) and the peak's ``period`` in cycles."""
-    share: float
-    period: float
-
-
-def rhythm(signal: npt.ArrayLike) -> Rhythm:
-    """The peak of the periodogram of a detrended signal (scipy.signal): a sine has share near 1, noise near 0.
-
-    The power of the peak's two neighbours counts, for a peak may lie between two frequencies. (0, nan) for a constant.
-    """
-    from scipy.signal import periodogram
-    values = np.asarray(signal, float)
-    if values.size < 8 or np.ptp(values) < 1e-9:
-        return Rhythm(0.0, float("nan"))
-    frequency, power = periodogram(values, window="hann", detrend="linear")
-    total = power[1:].sum()
-    if total <= 0:
-        return Rhythm(0.0, float("nan"))
-    peak = 1 + int(power[1:].argmax())
-    return Rhythm(float(power[max(1, peak - 1):peak + 2].sum() / total), float(1 / frequency[peak]))
+    reached = float((below[-1] + 1) * block)
+    return reached if reached < values.size else float("inf")
 
 
 def overlap_ratio(activations: float, active_cycles: float) -> float:
@@ -61,21 +37,11 @@ def overlap_ratio(activations: float, active_cycles: float) -> float:
     return (activations - active_cycles) / activations if activations else float("nan")
 
 
-def overlap_null(active: npt.ArrayLike, draws: int = 200, seed: int = 0) -> npt.NDArray[np.float64]:
-    """Overlap ratios, shape (draws,), of the same activation trains at random phases.
+def chance_overlap(activations: npt.ArrayLike, cycles: float) -> float:
+    """Overlap ratio expected of trains with these ``activations`` (n,) in ``cycles``, each turned around the episode by
+    its own random amount, which keeps its rhythm and destroys its timing against the others.
 
-    ``active``: booleans of shape (cycles, behaviours). Each train is turned around the episode by its own random
-    amount, which keeps its rhythm and destroys its timing against the others.
+    A cycle then holds train b with chance a_b / n, whatever the others do: the union is n (1 - prod(1 - a_b / n)).
     """
-    trains = np.asarray(active, bool)
-    n, behaviours = trains.shape
-    rng = np.random.default_rng(seed)
-    at = [np.flatnonzero(trains[:, b]) for b in range(behaviours)]
-    total = sum(train.size for train in at)
-    if not total:
-        return np.full(draws, np.nan)
-    hit = np.zeros((draws, n), bool)
-    for train, shifts in zip(at, rng.integers(0, n, (draws, behaviours)).T, strict=True):
-        hit[np.arange(draws)[:, None], (train + shifts[:, None]) % n] = True
-    share: npt.NDArray[np.float64] = (total - hit.sum(axis=1)) / total
-    return share
+    acts = np.asarray(activations, float)
+    return overlap_ratio(float(acts.sum()), float(cycles * (1 - np.prod(1 - acts / cycles))))

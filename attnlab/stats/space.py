@@ -1,4 +1,4 @@
-"""Where a robot has been: coverage, evenness of visits, smoothness of a path."""
+"""Where a robot has been: coverage, evenness of visits."""
 
 from __future__ import annotations
 
@@ -37,23 +37,3 @@ def gini(visits: npt.ArrayLike) -> float:
     if total <= 0:
         return float("nan")
     return float(2 * (np.arange(1, n + 1) * counts).sum() / (n * total) - (n + 1) / n)
-
-
-def curvature(x_m: npt.ArrayLike, y_m: npt.ArrayLike, step_m: float = 0.1) -> float:
-    """Mean absolute change of direction along a path in rad/m. 0 for a straight line, 1 / r for a circle of radius r.
-
-    The path is first thinned to points ``step_m`` apart, so that turning on the spot and jitter do not count.
-    nan for a path shorter than three such points.
-    """
-    points = np.column_stack([x_m, y_m]).astype(float)
-    kept = [points[0]] if len(points) else []
-    for point in points:
-        if np.hypot(*(point - kept[-1])) >= step_m:
-            kept.append(point)
-    if len(kept) < 3:
-        return float("nan")
-    steps = np.diff(np.array(kept), axis=0)
-    heading = np.arctan2(steps[:, 1], steps[:, 0])
-    turns = abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
-    lengths = np.hypot(steps[:, 0], steps[:, 1])
-    return float(turns.sum() / ((lengths[:-1] + lengths[1:]) / 2).sum())

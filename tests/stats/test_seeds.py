@@ -120,7 +120,8 @@ def test_sign_flip_is_rarely_small_under_the_null():
 def test_holm_by_hand():
     # sorted .01 .02 .04: 3 * .01, then 2 * .02, then .04; never falling
     assert holm([0.04, 0.01, 0.02]) == pytest.approx([0.04, 0.03, 0.04])
-    assert holm([0.5, 0.9]) == [1.0, 1.0]
+    assert holm([0.5, 0.9]).tolist() == [1.0, 1.0]
+    assert holm([[0.04, 0.5], [0.01, 0.01]]) == pytest.approx(np.array([[0.04, 0.5], [0.02, 0.02]]))
     corrected = holm([0.01, float("nan"), 0.02])
     assert corrected[0] == 0.02 and np.isnan(corrected[1]) and corrected[2] == 0.02
 

@@ -1,0 +1,68 @@
+"""Who plays which role in a study: strata to judge, runs that failed, studies of other things."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from attnlab.claims.files import Claims
+from attnlab.results.conditions import Conditions, Runs
+from attnlab.tables.flat import dig, text
+from attnlab.tables.naming import value_of
+
+
+def strata(claims: Claims, conditions: Conditions) -> dict[str, dict[str, str]]:
+    """Combinations to judge, by name: values of the settings that vary and tell no roles apart.
+
+    A variant whose name follows from the curiosity and the settings of the roles is no combination of its own.
+    """
+    of_roles = {name for role in claims.roles.values() for name in role.where}
+    others = [name for name in conditions.settings if name not in of_roles]
+    if "variant" in others and "variant" not in of_roles:
+        rest = [name for name in conditions.settings if name != "variant"]
+        keys = [(key[0], *(value for name, value in zip(conditions.settings, key[1:], strict=True) if name in rest))
+                for key in conditions.keyed]
+        if len(set(keys)) == len(keys) and len(others) == 1:
+            others = []
+    found: dict[str, dict[str, str]] = {}
+    for stratum in conditions.strata:
+        values = dict(zip(conditions.settings, stratum, strict=True))
+        kept = {name: values[name] for name in others}
+        name = conditions.stratum_name(stratum) if len(kept) == len(stratum) else \
+            ", ".join(f"{name}={value}" for name, value in kept.items())
+        found.setdefault(name, kept)
+    return found
+
+
+def failed(conditions: Conditions, where: Mapping[str, Any], stratum: Mapping[str, str]) -> set[int]:
+    """Seeds of a role whose run was started and failed, and that no complete run stands for."""
+    study = conditions.study
+    by_name = study.file.by_name()
+    lost, there = set(), set(conditions.matching(where, stratum)[0].runs)
+    for run in study.failed:
+        condition = by_name[study.condition(run).name]
+        wanted = {**{name: text(value) for name, value in where.items()}, **stratum}
+        if all(text(value_of(condition.settings, condition.config, name)) == value for name, value in wanted.items()):
+            lost.add(study.seed(run))
+    return lost - there
+
+
+def withheld(claims: Claims, roles: Mapping[str, Runs]) -> str:
+    """Why no verdict is given: runs of another world, or of other behaviours, than the claims are about; "" if they are
+    about these."""
+    for runs in roles.values():
+        if not runs.runs:
+            continue
+        config = runs.config(min(runs.runs))
+        for name, value in claims.about.items():
+            has = _named(dig(config, name))
+            if has is not None and has != _named(value):
+                return f"these claims are about {name}={text(_named(value))}, these runs have {name}={text(has)}"
+    return ""
+
+
+def _named(value: Any) -> Any:
+    """A part by its name, a set of parts by their names in order."""
+    if isinstance(value, Mapping):
+        return value["name"] if "name" in value else sorted(map(str, value))
+    return sorted(map(str, value)) if isinstance(value, list) else value
