@@ -131,7 +131,7 @@ class _Bench:
         x = np.array([sample[seed] for seed in sorted(sample)])
         d = decide.interval(part, x, rules)
         finding = WORST_FIRST[int(decide.grade(part, d)[0])]
-        at = -(part.margin or 0.0) if part.test == "not_lower" else part.reference
+        at = decide.turn(part)
         finite = bool(np.isfinite(x).all())
         found = PartVerdict(
             part, finding, f"{words.shown(self.claims, part, d, levels)}: {words.why(part, finding)}",

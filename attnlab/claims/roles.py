@@ -10,8 +10,10 @@ from attnlab.results.conditions import Conditions, Runs
 from attnlab.tables.flat import dig, text
 from attnlab.tables.naming import value_of
 
+Combinations = dict[str, dict[str, str]]  # name -> settings by dotted name, as texts
 
-def strata(claims: Claims, conditions: Conditions) -> dict[str, dict[str, str]]:
+
+def strata(claims: Claims, conditions: Conditions) -> Combinations:
     """Combinations to judge, by name: values of the settings that vary and tell no roles apart.
 
     A variant whose name follows from the curiosity and the settings of the roles is no combination of its own.
@@ -24,7 +26,7 @@ def strata(claims: Claims, conditions: Conditions) -> dict[str, dict[str, str]]:
                 for key in conditions.keyed]
         if len(set(keys)) == len(keys) and len(others) == 1:
             others = []
-    found: dict[str, dict[str, str]] = {}
+    found: Combinations = {}
     for stratum in conditions.strata:
         values = dict(zip(conditions.settings, stratum, strict=True))
         kept = {name: values[name] for name in others}

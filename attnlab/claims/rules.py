@@ -21,17 +21,23 @@ CONTRADICTED, UNTESTABLE, NOT, DIRECTION, COMPATIBLE, REPRODUCED = (RANK[f] for 
     Finding.CONTRADICTED, Finding.UNTESTABLE, Finding.NOT, Finding.DIRECTION, Finding.COMPATIBLE, Finding.REPRODUCED))
 
 
+def turn(part: Part) -> float:
+    """Where the comparison would be neither here nor there: the margin, the number alone, or the reference."""
+    if part.test == "not_lower":
+        return -(part.margin or 0.0)
+    return part.number if part.direction == "about" and part.number is not None else part.reference
+
+
 def interval(part: Part, sample: npt.ArrayLike, rules: Rules) -> Ends:
     """Value, interval, and the p of "it is where the claim would turn", each of shape (studies,)."""
     of = median_interval if part.test == "median" else t_interval
     x = np.asarray(sample, float)
-    if part.test == "not_lower":
-        return of(x, -(part.margin or 0.0), rules.confidence)
-    if part.direction == "about" and part.number is not None:  # against the nearer end of the tolerance
+    if part.test != "not_lower" and part.direction == "about" and part.number is not None:
+        # against the nearer end of the tolerance
         ends = [of(x, part.number + side * (part.known or 0.0), rules.confidence) for side in (-1, 1)]
         above = ends[0].value > part.number
         return ends[0]._replace(p=np.where(above, ends[1].p, ends[0].p))
-    return of(x, part.reference, rules.confidence)
+    return of(x, turn(part), rules.confidence)
 
 
 def grade(part: Part, d: Ends) -> Codes:

@@ -52,7 +52,7 @@ class ActivationSaving(Measure):
         acts = mean_sums(runs, p.phase, p.behaviour, "activations")
         cycles = self.mean_of(runs, "cycles", p.phase)
         names = len(behaviours_of(runs, p.phase) if p.behaviour == "all" else p.behaviour.split("+"))
-        return {seed: 100 * (1 - acts[seed] / (names * cycles[seed])) for seed in acts}
+        return {seed: 100 * (1 - acts[seed] / (names * cycles.get(seed, float("nan")))) for seed in acts}
 
 
 @register("measure", "overlap")
@@ -69,7 +69,7 @@ class Overlap(Measure):
         from attnlab.stats import overlap_ratio
         acts = mean_sums(runs, self.params.phase, "all", "activations")
         union = self.mean_of(runs, "active_cycles", self.params.phase)
-        return {seed: 100 * overlap_ratio(acts[seed], union[seed]) for seed in acts}
+        return {seed: 100 * overlap_ratio(acts[seed], union.get(seed, float("nan"))) for seed in acts}
 
 
 @register("measure", "overlap_excess")

@@ -87,13 +87,13 @@ class Coverage(Measure):
             return {seed: 100 * float((v > 0).mean()) for seed, v in maps.items()}
         found = {}
         for seed, visits in maps.items():
-            free = _reachable(runs.conditions, runs.runs[seed])
+            free = _reachable(runs.conditions, runs.runs[seed], self.params.phase)
             found[seed] = 100 * float((visits[free] > 0).mean())
         return found
 
 
 @once_a_study
-def _reachable(conditions: Conditions, run: str) -> np.ndarray:
+def _reachable(conditions: Conditions, run: str, phase: str) -> np.ndarray:
     """Cells of a run's floor in which a robot's centre can be without touching anything, and gets to from the largest
     such room; a cell visited counts too (its middle may be too near where its edge is not)."""
     import numpy as np
@@ -104,13 +104,14 @@ def _reachable(conditions: Conditions, run: str) -> np.ndarray:
     from attnlab.worlds.geometry import clearances
     layout = conditions.layout(run)
     assert layout is not None  # visit_maps has built it
-    visits = _map(conditions, "train", run)
+    visits = _map(conditions, phase, run)
     shape = [int(np.ceil(size / CELL_M - 1e-9)) for size in (layout.width_m, layout.depth_m)]
     x, y = np.meshgrid(*[(np.arange(n) + 0.5) * CELL_M for n in shape], indexing="ij")
-    free = clearances(np.stack([x.ravel(), y.ravel()], axis=1), layout.solids).reshape(shape) > RADIUS_M
+    free = clearances(np.stack([x.ravel(), y.ravel()], axis=1), layout.solids).reshape(shape) > RADIUS_M + 1e-9
     rooms, count = label(free)
     largest = rooms == 1 + int(np.argmax([(rooms == i + 1).sum() for i in range(count)])) if count else free
-    return largest | (visits > 0) if visits is not None else largest
+    assert visits is not None
+    return largest | (visits > 0)
 
 
 @register("measure", "visit_entropy")

@@ -11,6 +11,7 @@ from attnlab.audit.table import load_table
 from attnlab.claims import DEFAULT
 from attnlab.claims.files import Claims, load_claims
 from attnlab.claims.judge import Verdict, judge
+from attnlab.claims.roles import Combinations, strata
 from attnlab.errors import ConfigError
 from attnlab.figures.base import FigureContext, gallery
 from attnlab.figures.style import drawing
@@ -37,8 +38,8 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
         (target / "figures").mkdir(parents=True, exist_ok=True)
     except OSError as cause:
         raise ConfigError("--out", f"{target} cannot be written ({cause.strerror or cause})") from None
-    judged = {conditions.stratum_name(s): judge(claims, conditions, dict(zip(conditions.settings, s, strict=True)))
-              for s in conditions.strata}
+    combinations = strata(claims, conditions)
+    judged = {name: judge(claims, conditions, settings) for name, settings in combinations.items()}
     telling = _telling(judged)
     told = judged[telling] if telling is not None else []
     first = told or next(iter(judged.values()), [])
@@ -46,10 +47,10 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
         wanted = [name for name in gallery() if conditions.strata and (only is None or name in only)]
         shown = drawn.draw(wanted, FigureContext(others), conditions, captions, told, target)
-        tables = _tables(claims, conditions, target)
-        sections = _sections(study, conditions, judged, telling, tables, target)
+        tables = _tables(claims, conditions, combinations, target)
+        sections = _sections(study, judged, combinations, telling, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
-            more, section = _multiverse(multiverse.analyse(conditions, judged), target)
+            more, section = _multiverse(multiverse.analyse(combinations, judged), target)
             shown, sections = more + shown, [section, *sections]
     sections.append(provenance.commands(study))
     notes = provenance.notes(study, conditions, claims)
@@ -72,15 +73,15 @@ def _claims_of(study: Study) -> str:
     return min(names, key=lambda name: (-names[name], name), default=DEFAULT)
 
 
-def _tables(claims: Claims, conditions: Conditions, target: Path) -> list[tuple[str, list[table5.Row]]]:
+def _tables(claims: Claims, conditions: Conditions, combinations: Combinations, target: Path
+            ) -> list[tuple[str, list[table5.Row]]]:
     """Table 5 for each combination of the other settings in which a role of the claims file is a column of it."""
     paper = load_table()
     tables = []
-    for stratum in conditions.strata:
-        within = dict(zip(conditions.settings, stratum, strict=True))
+    for name, within in combinations.items():
         roles = {role.label: conditions.matching(role.where, within)[0] for role in claims.roles.values()}
         if set(roles) & set(paper.conditions):
-            tables.append((conditions.stratum_name(stratum), table5.rows(paper, roles)))
+            tables.append((name, table5.rows(paper, roles)))
     write_bytes(target / "table5.csv", table5.as_csv(tables))
     return tables
 
@@ -90,11 +91,12 @@ def _telling(judged: dict[str, list[Verdict]]) -> str | None:
     return next((name for name, of in judged.items() if not nothing_testable(of)), None)
 
 
-def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdict]], telling: str | None,
+def _sections(study: Study, judged: dict[str, list[Verdict]], combinations: Combinations, telling: str | None,
               tables: list[tuple[str, list[table5.Row]]], target: Path) -> list[Section]:
     """Conditions, Table 5 and claims, in the page and as CSV; what a study of other things cannot say is left out of
     the page."""
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
+    write_bytes(target / "seeds.csv", verdicts.seeds_csv(judged))
     sections = []
     if judged:
         section, csv = glance.section(study)
@@ -108,7 +110,7 @@ def _sections(study: Study, conditions: Conditions, judged: dict[str, list[Verdi
                  "of eqs 7-9 in the rewards. † The paper's text does not tell which of two cells this is.</p>")
         sections.append(Section("table5", "Table 5, side by side", html))
     if len(judged) > 1:
-        write_bytes(target / "combinations.csv", multiverse.combinations_csv(conditions, judged))
+        write_bytes(target / "combinations.csv", multiverse.combinations_csv(combinations, judged))
         if telling is not None:
             sections.append(verdicts.matrix(judged))
     if telling is not None:

@@ -12,9 +12,9 @@ import numpy as np
 
 from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Verdict
+from attnlab.claims.roles import Combinations
 from attnlab.figures.style import GREY, WIDTH_IN, cut
 from attnlab.report.page import Section, table
-from attnlab.results.conditions import Conditions
 from attnlab.stats import bootstrap_interval
 from attnlab.tables.flat import text
 
@@ -58,38 +58,37 @@ class Multiverse:
         return value.value, value.low, value.high, len(seen)
 
 
-def analyse(conditions: Conditions, judged: Mapping[str, Sequence[Verdict]]) -> Multiverse:
+def analyse(combinations: Combinations, judged: Mapping[str, Sequence[Verdict]]) -> Multiverse:
     """Shares and main effects. Settings that always change together are one factor."""
     verdicts = list(judged.values())
     first = verdicts[0]
     holds = np.array([[np.nan if of[i].verdict is Finding.UNTESTABLE else float(of[i].holds) for of in verdicts]
                       for i in range(len(first))])
     reproduced = np.array([[of[i].verdict is Finding.REPRODUCED for of in verdicts] for i in range(len(first))])
-    levels, defaults = _factors(conditions)
+    levels, defaults = _factors(list(combinations.values()))
     effects = [effect for i, verdict in enumerate(first) for factor, of in levels.items()
                for effect in _effects(verdict.id, factor, np.array(of), defaults[factor], holds[i])]
     return Multiverse([v.id for v in first], [v.claim.title for v in first], list(judged), holds, reproduced, levels,
                       defaults, effects)
 
 
-def _factors(conditions: Conditions) -> tuple[dict[str, list[str]], dict[str, str]]:
+def _factors(readings: Sequence[Mapping[str, str]]) -> tuple[dict[str, list[str]], dict[str, str]]:
     import dataclasses
 
     from attnlab.reading import Reading
     plain = {f"reading.{name}": text(value) for name, value in dataclasses.asdict(Reading()).items()}
-    merged: dict[tuple[int, ...], list[int]] = {}
-    for place in range(len(conditions.settings)):
-        if conditions.settings[place] == "variant":
+    merged: dict[tuple[int, ...], list[str]] = {}
+    for name in readings[0]:
+        if name == "variant":
             continue  # the name of a combination, not a setting of it
-        column = [stratum[place] for stratum in conditions.strata]
+        column = [settings[name] for settings in readings]
         codes = tuple(list(dict.fromkeys(column)).index(value) for value in column)
         if len(set(codes)) > 1:
-            merged.setdefault(codes, []).append(place)
+            merged.setdefault(codes, []).append(name)
     levels, defaults = {}, {}
-    for places in merged.values():
-        names = [conditions.settings[p] for p in places]
+    for names in merged.values():
         label = " + ".join(name.removeprefix("reading.") for name in names)
-        column = [" + ".join(stratum[p] for p in places) for stratum in conditions.strata]
+        column = [" + ".join(settings[name] for name in names) for settings in readings]
         usual = " + ".join(plain.get(name, "") for name in names)
         levels[label] = column
         defaults[label] = usual if usual in column else column[0]
@@ -178,7 +177,7 @@ def section(found: Multiverse) -> Section:
                  ", ".join(f"{f.split(' + ')[0]}={of[j].split(' + ')[0]}" for f, of in found.levels.items()
                            if of[j] != found.defaults[f]) or "nothing"] for j in best]
     html = (f"<p>{len(found.names)} readings of the paper's open points were run. A claim holds in a reading if its "
-            "verdict is <i>reproduced</i> or <i>direction only</i>.</p>"
+            "verdict is <i>reproduced</i> or one of the two <i>direction</i> ones.</p>"
             + table(("claim", "holds in", "95 % interval", "readings", "moved most by (percent points)"), rows,
                     (1, 2, 3))
             + "<h3>Readings that satisfy most claims</h3>"
@@ -198,12 +197,12 @@ def effects_csv(found: Multiverse) -> bytes:
     return sink.getvalue().encode()
 
 
-def combinations_csv(conditions: Conditions, judged: Mapping[str, Sequence[Verdict]]) -> bytes:
+def combinations_csv(combinations: Combinations, judged: Mapping[str, Sequence[Verdict]]) -> bytes:
     """A row a combination: its settings, and the verdict on every claim."""
     sink = io.StringIO()
     writer = csv.writer(sink, lineterminator="\n")
     first = next(iter(judged.values()), [])
-    writer.writerow(["combination", *conditions.settings, *(v.id for v in first)])
-    for (name, verdicts), stratum in zip(judged.items(), conditions.strata, strict=True):
-        writer.writerow([name, *stratum, *(v.verdict for v in verdicts)])
+    writer.writerow(["combination", *next(iter(combinations.values()), {}), *(v.id for v in first)])
+    for (name, verdicts), settings in zip(judged.items(), combinations.values(), strict=True):
+        writer.writerow([name, *settings.values(), *(v.verdict for v in verdicts)])
     return sink.getvalue().encode()

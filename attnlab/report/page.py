@@ -100,10 +100,14 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> st
     holds = sum(counts[v] for v in Finding if v.holds)
     source = f", {escape(claims.source)}" if claims.source else ""
     number = f"{len(verdicts)} claim{'s' * (len(verdicts) > 1)}"
+    who = "; ".join(f"{role.label} is {', '.join(f'{name}={value}' for name, value in role.where.items())}"
+                    for role in claims.roles.values())
+    met = counts[Finding.REPRODUCED]
     return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{number} of <cite>{escape(claims.title)}</cite>'
             f"{source}, judged by the rules of {escape(claims.path.name)}"
             f"{f' for <b>{escape(where)}</b> alone (the others: below)' if where else ''}: the claimed direction holds "
-            f"in <b>{holds}</b>, and in {counts[Finding.REPRODUCED]} of these any number given is met too.</p>\n"
+            f"in <b>{holds}</b>, {met} of which {'is' if met == 1 else 'are'} reproduced, number and all. "
+            f"{escape(who)}.</p>\n"
             f'<div class="bar" role="img" aria-label="{holds} of {len(verdicts)} claims hold">{bar}</div>\n'
             f'<div class="key small">{key}</div>\n<ul class="headline">{"".join(items)}</ul>')
 

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from html import escape
 
 from attnlab.claims.judge import Verdict
+from attnlab.claims.parts import PAIRED
 from attnlab.report.page import Section, chip
 
 
@@ -23,21 +24,35 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
     rows = []
     for v in verdicts:
         lead = v.lead
-        asides = "".join(f"<br><span class=small>Beside it: {escape(p.reason)} ({escape(p.verdict)}).</span>"
-                         for p in v.parts if not p.part.counts)
         rows.append(
             f'<tr id="claim-{escape(v.id)}"><td><b>{escape(v.id)}</b> {escape(v.claim.title)}<br>'
             f'<span class=small>{escape(v.claim.where)}: {escape(v.claim.says)}</span></td><td>{chip(v.verdict)}</td>'
-            f"<td>{escape(v.reason)}.{asides}</td><td class=n>{_n(lead.effect, '.2f')}</td><td class=n>{_n(v.p)}</td>"
-            f"<td class=n>{_n(v.p_holm)}</td><td class=n>{lead.seeds or '-'}</td></tr>")
+            f"<td>{escape(v.reason)}.{''.join(map(_small, _asides(v)))}</td><td class=n>{_n(lead.effect, '.2f')}</td>"
+            f"<td class=n>{_n(v.p)}</td><td class=n>{_n(v.p_holm)}</td><td class=n>{lead.seeds or '-'}</td></tr>")
     where = f"<p>For {escape(stratum)}.</p>" if stratum else ""
     html = (f'{where}<div class="scroll"><table class=claims><thead><tr>{head}</tr></thead>'
             f'<tbody>{"".join(rows)}</tbody></table></div>'
-            "<p class=small>Differences are paired by seed; in brackets 95 % bootstrap intervals over seeds. Effect "
-            "d: mean over standard deviation of the differences. p: sign-flip test, two-sided; of a claim with "
-            "several parts the largest. Holm: corrected for the number of claims. With fewer than six seeds no p can "
-            "fall below 0.05, and intervals are too narrow.</p>")
+            "<p class=small>Differences are paired by seed; in brackets 95 % t intervals over seeds, which decide (of "
+            "a median: between order statistics). Effect d: mean over standard deviation of the differences. p: of the "
+            "comparison that decided, two-sided, by the test behind its interval. Holm: corrected for the number of "
+            "claims. BCa intervals and exact sign-flip p of every comparison: verdicts.csv; values of every seed: "
+            "seeds.csv.</p>")
     return Section("claims", "Claims one by one", html)
+
+
+def _small(text: str) -> str:
+    return f"<br><span class=small>{escape(text)}</span>"
+
+
+def _asides(v: Verdict) -> list[str]:
+    """What stands beside a verdict: comparisons that do not count, other forms, failed runs, what to mind."""
+    found = [f"Beside it: {p.reason} ({p.verdict})." for p in v.parts if not p.part.counts]
+    forms = [f"{p.part.measure_name} {name}: {finding}" for p in v.parts for name, finding in p.forms.items()]
+    if forms:
+        found.append(f"In other forms: {'; '.join(forms)}.")
+    if v.worst is not None:
+        found.append(f"At worst, if the runs that failed count as the least favourable seen: {v.worst}.")
+    return [*found, f"Mind: {v.claim.mind}"] if v.claim.mind else found
 
 
 def matrix(judged: dict[str, list[Verdict]], most: int = 12) -> Section:
@@ -60,17 +75,34 @@ def as_csv(judged: dict[str, list[Verdict]]) -> bytes:
     """A row for every comparison of every claim in every combination of the other settings."""
     sink = io.StringIO()
     writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["settings", "claim", "title", "verdict", "p", "p_holm", "part", "counts", "measure", "test",
-                     "part_verdict", "value", "low", "high", "unit", "paper", "tolerance", "treatment", "control",
-                     "effect_d", "part_p", "seeds", "reason"])
+    writer.writerow(["settings", "claim", "title", "verdict", "at_worst", "p", "p_holm", "part", "counts", "measure",
+                     "test", "part_verdict", "value", "low", "high", "bca_low", "bca_high", "unit", "paper",
+                     "tolerance", "role", "against", "role_level", "against_level", "effect_d", "part_p",
+                     "p_sign_flip", "seeds", "forms", "reason"])
     for stratum, verdicts in judged.items():
         for v in verdicts:
             for i, p in enumerate(v.parts):
-                numbers = [p.part.number, p.part.tolerance, p.levels.get("treatment"), p.levels.get("control"),
-                           p.effect, p.p]
-                writer.writerow([stratum, v.id, v.claim.title, v.verdict, _plain(v.p), _plain(v.p_holm), i,
-                                 "yes" if p.part.counts else "no", p.part.measure_name, p.part.test, p.verdict,
-                                 *map(_plain, p.value), p.part.unit, *map(_plain, numbers), p.seeds, p.reason])
+                part, against = p.part, p.part.against if p.part.test in PAIRED else ""
+                forms = "; ".join(f"{name}: {finding}" for name, finding in p.forms.items())
+                writer.writerow([stratum, v.id, v.claim.title, v.verdict, v.worst or "", _plain(v.p), _plain(v.p_holm),
+                                 i, "yes" if part.counts else "no", part.measure_name, part.test, p.verdict,
+                                 *map(_plain, (*p.value, *p.bca)), part.unit, _plain(part.number), _plain(part.known),
+                                 part.role, against, _plain(p.levels.get(part.role)), _plain(p.levels.get(against)),
+                                 _plain(p.effect), _plain(p.p), _plain(p.p_flip), p.seeds, forms, p.reason])
+    return sink.getvalue().encode()
+
+
+def seeds_csv(judged: dict[str, list[Verdict]]) -> bytes:
+    """What every seed contributed to every comparison: a difference, a sign in %, or a level."""
+    sink = io.StringIO()
+    writer = csv.writer(sink, lineterminator="\n")
+    writer.writerow(["settings", "claim", "part", "measure", "test", "unit", "seed", "value"])
+    for stratum, verdicts in judged.items():
+        for v in verdicts:
+            for i, p in enumerate(v.parts):
+                for seed, value in sorted(p.sample.items()):
+                    writer.writerow([stratum, v.id, i, p.part.measure_name, p.part.test, p.part.unit, seed,
+                                     f"{value:.9g}"])
     return sink.getvalue().encode()
 
 

@@ -12,6 +12,7 @@ from small_study import write_run
 
 from attnlab.claims.files import load_claims
 from attnlab.claims.judge import judge
+from attnlab.claims.roles import strata
 from attnlab.errors import ConfigError
 from attnlab.launch.multiverse import balanced, design, imbalance, load_factors
 from attnlab.reading import Reading
@@ -67,15 +68,15 @@ def test_an_effect_that_was_put_in_is_found(tmp_path):
     for i in range(12):
         swept = {"reading.crash": ("contact", "safety_distance")[i % 2], "reading.need_k": (1, 2, 3)[i % 3],
                  "reading.energy_start": (4600, 4500)[i // 6], "reading.energy_max": (4600, 6000)[i // 6]}
-        for seed in range(3):
+        for seed in range(6):
             for curiosity in ("litman", "none"):
                 write_run(study, curiosity, seed, train=2, validation=2, cycles=24, swept=swept,
                           safety=0.3 if i % 2 else -0.3, name=f"{curiosity}-{i}-{seed}")
     conditions, claims = Conditions(load(study)), load_claims("dinocera2014")
     claims.claims = {key: claims.claims[key] for key in ("C1", "C18")}
-    judged = {conditions.stratum_name(s): judge(claims, conditions, dict(zip(conditions.settings, s, strict=True)))
-              for s in conditions.strata}
-    found = multiverse.analyse(conditions, judged)
+    combinations = strata(claims, conditions)
+    judged = {name: judge(claims, conditions, settings) for name, settings in combinations.items()}
+    found = multiverse.analyse(combinations, judged)
     assert len(found.names) == 12
     assert set(found.levels) == {"crash", "need_k", "energy_start + energy_max"}
     effects = {(e.factor, e.level): e for e in found.effects if e.claim == "C18"}
@@ -87,4 +88,4 @@ def test_an_effect_that_was_put_in_is_found(tmp_path):
     assert found.share(found.ids.index("C1"))[3] == 0
     html = multiverse.section(found).html
     assert "crash=safety_distance +100 [100, 100]" in html
-    assert len(multiverse.combinations_csv(conditions, judged).decode().splitlines()) == 13
+    assert len(multiverse.combinations_csv(combinations, judged).decode().splitlines()) == 13

@@ -137,7 +137,7 @@ def test_the_suite_finds_a_bad_figure(registered, change, check):
 # captions
 
 RULES = ("roles: {treatment: {where: {curiosity: none}}}\nclaims: {c: {title: t, where: w, says: s, parts: [{measure: "
-         "survival, test: level, direction: higher, unit: '%'}]}}\n")
+         "survival, test: level, direction: higher, reference: 9, unit: '%'}]}}\n")
 
 
 def test_captions_of_the_paper(folder, tmp_path):

@@ -40,21 +40,6 @@ def clocks(phase: str, column: str, **behaviours: list) -> Rows:
             for name, values in behaviours.items()]
 
 
-def cycles(**columns: list) -> Rows:
-    """Rows of the cycles of one validation episode."""
-    count = len(next(iter(columns.values())))
-    return [{"phase": "validation", "episode": 0, "cycle": i, **{name: values[i] for name, values in columns.items()}}
-            for i in range(count)]
-
-
-def falling(length: int, *at: int) -> list[float]:
-    """A need that grows by 1 a cycle and falls at these cycles."""
-    values = [300.0]
-    for cycle in range(1, length):
-        values.append(values[-1] - 50.0 if cycle in at else values[-1] + 1.0)
-    return values
-
-
 def policy(behaviour: str, level: str, periods: dict[int, int]) -> Rows:
     """Rows of ``policy`` in which the learned period of a percept is as given."""
     return [{"behaviour": behaviour, "curiosity_level": level, "period": 1, "percept": percept, "action": action,

@@ -52,7 +52,7 @@ class Backwards(Cluster):
 CLAIMS = """
 title: Ways
 roles: {treatment: {where: {curiosity: none}}}
-rules: {least_seeds: 2}
+rules: {least_seeds: 3}
 claims:
   W1: {title: It goes, where: here, says: somewhere, parts: [
     {measure: way, test: level, direction: higher, reference: 0, unit: m}]}

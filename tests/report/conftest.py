@@ -8,7 +8,7 @@ from small_study import write_study
 
 @pytest.fixture(scope="session")
 def study(tmp_path_factory) -> Path:
-    """Three seeds, CR and NCR, CR safer by 0.3."""
+    """Six seeds, CR and NCR, CR safer by 0.3."""
     return write_study(tmp_path_factory.mktemp("studies") / "small", safety=0.3)
 
 

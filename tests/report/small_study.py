@@ -73,7 +73,8 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
         write_parquet(folder / f"{table}.parquet", columns, columns_of(table, BEHAVIOURS, {}, {}))
     content = {"seed": seed, "train_episodes": train, "validation_episodes": validation, "max_cycles": cycles,
                "curiosity": {"name": curiosity}, "labels": labels or {}, "world": WORLD,
-               "reading": {"name": "inferred"}, "simulator": {"name": "planar"}, "learner": {"name": "q_learning"},
+               "reading": {"name": "inferred", "non_curious": "plain"}, "simulator": {"name": "planar"},
+               "learner": {"name": "q_learning"},
                "exploration": {"name": "softmax"}}
     for key, value in {**swept, **config}.items():
         node, parts = content, key.split(".")
@@ -91,7 +92,7 @@ def write_run(study: Path, curiosity: str, seed: int, *, train: int = 20, valida
     return folder
 
 
-def write_study(path: Path, seeds: int = 3, curiosities: tuple = ("litman", "none"), **kind) -> Path:
+def write_study(path: Path, seeds: int = 6, curiosities: tuple = ("litman", "none"), **kind) -> Path:
     for seed in range(seeds):
         for curiosity in curiosities:
             write_run(path, curiosity, seed, **kind)

@@ -5,15 +5,13 @@ import pytest
 
 from attnlab.stats import (
     block_means,
+    chance_overlap,
     convergence_episode,
     coverage,
-    curvature,
     entropy_bits,
     footprint_cells,
     gini,
-    overlap_null,
     overlap_ratio,
-    rhythm,
 )
 
 
@@ -25,7 +23,8 @@ def test_block_means_leaves_a_stump_out():
 
 
 @pytest.mark.parametrize(("values", "expected"), [
-    ([0, 0, 1, 1, 1, 1], 2), ([1] * 6, 0), ([0] * 6, 6), ([1, 1, 0, 0, 1, 1], 4), ([1, 1, 1, 1, 0, 0], 6)])
+    ([0, 0, 1, 1, 1, 1], 2), ([1] * 6, 0), ([0] * 6, np.inf), ([1, 1, 0, 0, 1, 1], 4),
+    ([1, 1, 1, 1, 0, 0], np.inf)])
 def test_convergence(values, expected):
     assert convergence_episode(values, block=2, level=1) == expected
 
@@ -34,29 +33,10 @@ def test_convergence_of_nothing():
     assert np.isnan(convergence_episode([], 50, 1))
 
 
-def test_rhythm_of_a_sine_and_of_noise():
-    t = np.arange(1000)
-    sine = rhythm(np.sin(2 * np.pi * t / 100))
-    assert sine.share > 0.95 and sine.period == pytest.approx(100)
-    assert rhythm(np.random.default_rng(0).normal(size=1000)).share < 0.1
-    assert rhythm(np.ones(100)).share == 0.0
-    assert rhythm([1.0, 2.0]).share == 0.0
-
-
 def test_overlap_of_table_5():
     assert overlap_ratio(443, 418) == pytest.approx(0.0564, abs=1e-4)
     assert overlap_ratio(364, 260) == pytest.approx(0.2857, abs=1e-4)
     assert np.isnan(overlap_ratio(0, 0))
-
-
-def test_overlap_null_of_two_regular_trains():
-    # every 4th cycle in both: a random phase coincides one time in four, and then on all cycles: mean (1/4) * (1/2)
-    active = np.zeros((400, 2), bool)
-    active[::4] = True
-    null = overlap_null(active, draws=4000)
-    assert set(np.round(null, 6)) == {0.0, 0.5}
-    assert null.mean() == pytest.approx(0.125, abs=0.02)
-    assert (overlap_null(active) == overlap_null(active)).all()
 
 
 def test_coverage_counts_a_cell_once():
@@ -79,8 +59,13 @@ def test_evenness():
     assert np.isnan(gini([0, 0])) and np.isnan(entropy_bits([0, 0]))
 
 
-def test_curvature_of_a_circle_a_line_and_a_point():
-    angle = np.linspace(0, 2 * np.pi, 2000)
-    assert curvature(2 * np.cos(angle), 2 * np.sin(angle)) == pytest.approx(0.5, rel=0.02)
-    assert curvature(np.linspace(0, 5, 100), np.zeros(100)) == pytest.approx(0.0, abs=1e-9)
-    assert np.isnan(curvature(np.zeros(50), np.zeros(50)))
+def test_overlap_by_chance_is_that_of_trains_turned_at_random():
+    rng = np.random.default_rng(0)
+    trains = [np.arange(0, 120, 4), np.arange(0, 120, 6), np.array([3, 4, 5, 90])]
+    drawn = []
+    for _ in range(4000):
+        union = set().union(*(((train + rng.integers(120)) % 120).tolist() for train in trains))
+        drawn.append(1 - len(union) / sum(map(len, trains)))
+    assert chance_overlap([30, 20, 4], 120) == pytest.approx(np.mean(drawn), abs=0.003)
+    # two trains, half and half of 4 cycles: union 4 (1 - 1/4) = 3 of 4 activations
+    assert chance_overlap([2, 2], 4) == 0.25
