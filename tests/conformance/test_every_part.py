@@ -16,7 +16,7 @@ SMALL = {("learner", "evolution"): {"generations": 1, "population": 5, "episodes
          ("measure", "survival_convergence"): {"episodes": [0, 6], "block": 2},  # what a study of six episodes has
          ("measure", "reward_convergence"): {"episodes": [0, 6], "block": 2, "end": 2},
          ("measure", "reward_rise"): {"early": [0, 3], "late": [3, 6]},
-         ("measure", "policy_match"): {"least_bins": 1}, ("measure", "policy_levels"): {"levels": ["low", "LH"]}}
+         ("measure", "policy_levels"): {"levels": ["low", "LH"], "least_visits": 1}}
 
 
 @pytest.mark.parametrize(("group", "name", "check"), CASES, ids=["-".join(case) for case in CASES])
