@@ -1,6 +1,7 @@
 """``python -m attnlab.new behaviour nap``: a part that works, and its test, to start one's own from.
 
-Writes plugins/<name>.py and tests/test_<name>.py in the folder one works in; never over a file that exists.
+Writes plugins/<name>.py and tests/test_<name>.py in the folder one works in; for an experiment, claims or a yaml world
+plugins/<kind>/<name>.yaml; for a package a folder <name>. Never over a file that exists.
 """
 
 from __future__ import annotations
@@ -20,6 +21,10 @@ from attnlab.loading import load_all
 from attnlab.paths import PACKAGE, plugins_dir
 
 TEMPLATES = PACKAGE / "templates"
+FILES = {  # kind -> (folder in plugins/, what uses it)
+    "experiment": ("experiment", "run it     python -m attnlab +experiment={name} seed=0-5"),
+    "claims": ("claims", "judge by it    python -m attnlab.report STUDY --claims {name}"),
+    "yaml_world": ("world", "run in it  python -m attnlab world={name}")}
 
 
 def groups() -> list[str]:
@@ -33,24 +38,37 @@ def by_any_name(word: str) -> str:
 
 
 def write(group: str, name: str, folder: Path) -> list[Path]:
-    """The part and its test in ``folder``; their paths."""
-    if group not in groups():
-        raise ConfigError(group, "no part can be started in that group", nearest(group, groups()))
+    """What is started in ``folder``; its paths, the one to begin with first."""
+    kinds = [*groups(), *FILES, "package"]
+    if group not in kinds:
+        raise ConfigError(group, "nothing can be started under that name", nearest(group, kinds))
     if not name.isidentifier() or keyword.iskeyword(name) or not name.islower():
         raise ConfigError(name, "is no name for a part", "Small letters, digits and _: my_part")
     load_all()
-    taken = registry.find(group, name)
+    taken = registry.find("behaviours" if group == "package" else group, name)
     if taken is not None and Path(taken.origin).parent != plugins_dir():
         raise ConfigError(name, f"{group} '{name}' exists already: {taken.origin}", "Choose another name")
-    paths = [folder / "plugins" / f"{name}.py", folder / "tests" / f"test_{name}.py"]
-    for path in paths:
-        if path.exists():
-            raise ConfigError(str(path), "exists already", "Choose another name")
+    wanted = _wanted(group, name)
+    for path in wanted:
+        if (folder / path).exists():
+            raise ConfigError(str(folder / path), "exists already", "Choose another name")
     words = {"name": name, "NAME": name.upper(), "Class": "".join(word.title() for word in name.split("_"))}
-    for path, template in zip(paths, (f"{group}.txt", f"{group}_test.txt"), strict=True):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(Template((TEMPLATES / template).read_text()).substitute(words))
-    return paths
+    for path, template in wanted.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(Template((TEMPLATES / template).read_text()).substitute(words))
+    return [folder / path for path in wanted]
+
+
+def _wanted(group: str, name: str) -> dict[str, str]:
+    """File -> the template it is made from."""
+    if group in FILES:
+        return {f"plugins/{FILES[group][0]}/{name}.yaml": f"files/{group}.txt"}
+    if group == "package":
+        return {f"{name}/README.md": "package/readme.txt", f"{name}/pyproject.toml": "package/pyproject.txt",
+                f"{name}/src/{name}/__init__.py": "package/init.txt", f"{name}/src/{name}/part.py": "behaviours.txt",
+                f"{name}/src/{name}/conf/experiment/{name}.yaml": "package/experiment.txt",
+                f"{name}/tests/test_{name}.py": "behaviours_test.txt"}
+    return {f"plugins/{name}.py": f"{group}.txt", f"tests/test_{name}.py": f"{group}_test.txt"}
 
 
 def how_to_use(group: str, name: str) -> str:
@@ -64,11 +82,19 @@ def how_to_use(group: str, name: str) -> str:
 
 def main(argv: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m attnlab.new", description="Start a part of your own.")
-    parser.add_argument("group", help=", ".join(groups()))
+    parser.add_argument("group", help=", ".join([*groups(), *FILES, "package"]))
     parser.add_argument("name", help="of the part, e.g. nap")
     given = parser.parse_args(argv)
-    group = by_any_name(given.group)
-    part, test = (path.relative_to(Path.cwd()) for path in write(group, given.name, Path.cwd()))
+    group = given.group if given.group in FILES else by_any_name(given.group)
+    part, *others = (path.relative_to(Path.cwd()) for path in write(group, given.name, Path.cwd()))
+    if group in FILES:
+        print(f"{part}\n\n{FILES[group][1].format(name=given.name)}")
+        return 0
+    if group == "package":
+        print("\n".join(map(str, [part, *others])) + f"\n\ninstall it  pip install -e {given.name}\ntest it     "
+              f"python -m pytest {given.name}/tests\nuse it      python -m attnlab +behaviours={given.name}")
+        return 0
+    (test,) = others
     print(f"{part}   the part\n{test}   its tests\n")
     print(f"test it    python -m pytest {test}\nsee it     python -m attnlab.parts {given.name}\n"
           f"{how_to_use(group, given.name)}")

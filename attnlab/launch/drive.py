@@ -83,6 +83,8 @@ def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Seque
     if not named:
         return
     made: dict[str, Path] = {}
+    if what := " and the ".join(["picture"] * settings.picture + ["report"] * settings.report):
+        print(f"drawing the {what}", file=sys.stderr, flush=True)
     if settings.picture:
         from attnlab.report import survival_picture
         made["picture"] = survival_picture(folder)

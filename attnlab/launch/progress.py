@@ -40,11 +40,12 @@ class Display:
         if sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+            console = Console(stderr=True)
+            speed = [TextColumn("{task.fields[speed]}")] if console.width >= 100 else []
             self._bar = Progress(TextColumn("{task.description}"), BarColumn(bar_width=None),
-                                 TextColumn("{task.completed:,.0f}/{task.total:,.0f} episodes"),
-                                 TextColumn("{task.fields[speed]}"), TimeElapsedColumn(), TextColumn("left"),
-                                 TimeRemainingColumn(elapsed_when_finished=False),
-                                 console=Console(stderr=True))
+                                 TextColumn("{task.completed:,.0f}/{task.total:,.0f}" + " episodes" * bool(speed)),
+                                 *speed, TextColumn("elapsed"), TimeElapsedColumn(), TextColumn("left"),
+                                 TimeRemainingColumn(elapsed_when_finished=False), console=console)
             self._task = self._bar.add_task("", total=self.episodes, speed="")
             self._bar.start()
         self.tick()
@@ -81,9 +82,10 @@ class Display:
         elif time.monotonic() - self._last_plain > PLAIN_EVERY_S:
             self._last_plain = time.monotonic()
             share = self.done_episodes / max(1, self.episodes)
-            left = (self._last_plain - self._started) * (1 - share) / share if share else float("nan")
+            spent = self._last_plain - self._started
+            left = f", about {spent * (1 - share) / share:.0f} s left" if share else ""
             print(f"  {self.done_runs}/{self.runs} runs, {self.done_episodes:,}/{self.episodes:,} episodes, "
-                  f"{self.cycles_per_s:,.0f} cycles/s, about {left:.0f} s left", file=sys.stderr, flush=True)
+                  f"{self.cycles_per_s:,.0f} cycles/s, {spent:.0f} s elapsed{left}", file=sys.stderr, flush=True)
 
     def run_done(self, job: Job, about: dict[str, Any]) -> None:
         """A run ended, well or not."""

@@ -10,7 +10,9 @@ from attnlab.results.load import Study
 
 if TYPE_CHECKING:
     import pandas as pd
+    from rich.table import Table
 
+EDGES = 3  # characters of a table that no column has
 FORMS = {"early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "energy": ".0f", "safety": ".2f"}
 
 
@@ -58,31 +60,62 @@ def shown(row: Mapping[str, Any]) -> list[str]:
             format(value, FORMS.get(key, "" if isinstance(value, int) else ".0f")) for key, value in row.items()]
 
 
-def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path], hints: dict[str, str]) -> None:
+def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path], hints: dict[str, str],
+                  width: int | None = None) -> None:
     """Print the table of the runs in ``named`` (run -> condition), where everything is (``made``: what -> path), and
-    what to type next (``hints``: why -> command)."""
-    from rich import box
+    what to type next (``hints``: why -> command). ``width``: columns to print in, those of the terminal if left out."""
     from rich.console import Console
+    frame = summary_frame(study, named)
+    console = Console(width=width or (None if _is_terminal() else 110), highlight=False)
+    heads = {"early": "survival\nearly", "late": "survival\nlate", "validation": "survival\nvalid.",
+             "activations": "activations\n" + " ".join(study.behaviours["behaviour"].unique())}
+    rows = [shown({str(name): value for name, value in row.items()}) for row in frame.to_dict("records")]
+    columns = [[heads.get(str(key), str(key)), *cells] for key, cells in
+               zip(frame.columns, zip(*rows, strict=True), strict=True)]
+    console.print(f"{study.path.name}: means over seeds", markup=False)
+    for part in parts_of(columns, console.width):
+        console.print(_table(part, console.width))
+    lines = {"results": study.path, **made, **hints}
+    wide = max(map(len, lines))
+    for what, where in lines.items():
+        print(f"{what:{wide}}  {where}")
+
+
+def parts_of(columns: list[list[str]], width: int) -> list[list[list[str]]]:
+    """Columns (head, then a cell a row) in as many tables as it takes to fit ``width``; each begins with the first
+    column, the condition."""
+    first, *others = columns
+    left = min(_wide(first), width // 2)
+    parts, room = [[first]], width - left - EDGES
+    for column in others:
+        if len(parts[-1]) > 1 and _wide(column) + 1 > room:
+            parts.append([first])
+            room = width - left - EDGES
+        parts[-1].append(column)
+        room -= _wide(column) + 1
+    return parts
+
+
+def _wide(column: list[str]) -> int:
+    return max(len(line) for cell in column for line in cell.split("\n")) + 1
+
+
+def _table(columns: list[list[str]], width: int) -> Table:
+    """A table whose first column is never cut: it goes on in the next line. "survival" stands once over its columns."""
+    from rich import box
     from rich.table import Table
     from rich.text import Text
-    frame = summary_frame(study, named)
-    table = Table(title=Text(f"{study.path.name}: means over seeds"), title_justify="left", box=box.SIMPLE_HEAD,
-                  padding=(0, 1), collapse_padding=True, pad_edge=False)
-    names = list(study.behaviours["behaviour"].unique())
-    heads = {"early": "survival\nearly", "late": "\nlate", "validation": "\nvalid.",
-             "activations": "activations\n" + " ".join(names)}
-    for key in frame.columns:
-        head = heads.get(key, key)
-        table.add_column(head, justify="left" if key in ("condition", "activations") else "right", overflow="fold",
-                         no_wrap=key != "condition")
-    for row in frame.to_dict("records"):
-        table.add_row(*map(Text, shown({str(name): value for name, value in row.items()})))
-    console = Console(width=None if _is_terminal() else 110)
-    console.print(table)
-    lines = {"results": study.path, **made, **hints}
-    width = max(map(len, lines))
-    for what, where in lines.items():
-        print(f"{what:{width}}  {where}")
+    table, before = Table(box=box.SIMPLE_HEAD, padding=(0, 1), collapse_padding=True, pad_edge=False), ""
+    for i, (head, *_) in enumerate(columns):
+        above, _, below = head.rpartition("\n")
+        text = f"\n{below}" if above and above == before else head
+        left = min(_wide(columns[0]) - 1, width // 2) if i == 0 else None
+        table.add_column(Text(text), justify="left" if i == 0 or "activations" in head else "right", overflow="fold",
+                         no_wrap=i > 0, width=left)
+        before = above
+    for row in zip(*(cells for _, *cells in columns), strict=True):
+        table.add_row(*map(Text, row))
+    return table
 
 
 def _is_terminal() -> bool:

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import tomllib
+from pathlib import Path
+
 from attnlab.groups import GROUPS
 from attnlab.new import groups
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def test_every_group_starts_with_a_part_that_passes_its_tests(attnlab, tmp_path):
@@ -16,3 +21,29 @@ def test_every_group_starts_with_a_part_that_passes_its_tests(attnlab, tmp_path)
     assert tested.returncode == 0, tested.stdout
     again = attnlab("fusion", "my_fusion", module="attnlab.new")
     assert again.returncode == 2 and "exists already" in again.stderr
+
+
+def test_an_experiment_claims_and_a_world_of_ones_own(attnlab, tmp_path):
+    """What is written runs as it is, together: the experiment in the world, judged by the claims."""
+    for kind, name in (("experiment", "mine"), ("claims", "hopes"), ("yaml_world", "room")):
+        done = attnlab(kind, name, module="attnlab.new")
+        assert done.returncode == 0, done.stderr
+    done = attnlab("+experiment=mine", "seed=0-5", "world=room", "claims_file=hopes", "train_episodes=2",
+                   "picture=false", "validation_episodes=1", "max_cycles=60", "simulator=planar")
+    assert done.returncode == 0 and "NCR" in done.stdout, done.stderr
+    verdicts = next((tmp_path / "outputs" / "mine").rglob("verdicts.csv")).read_text()
+    assert "hopes_1" in verdicts and "untestable" not in verdicts
+    again = attnlab("claims", "hopes", module="attnlab.new")
+    assert again.returncode == 2 and "exists already" in again.stderr and again.stderr.count("\n") == 1
+    unknown = attnlab("experimint", "x", module="attnlab.new")
+    assert unknown.returncode == 2 and "Did you mean 'experiment'" in unknown.stderr
+
+
+def test_a_package_of_ones_own(attnlab, tmp_path):
+    """Imported, it registers its part; its tests pass; its metadata names the entry point."""
+    assert attnlab("package", "siesta", module="attnlab.new").returncode == 0
+    tested = attnlab("-q", "-p", "no:cacheprovider", "siesta/tests", module="pytest",
+                     env={"PYTHONPATH": f"{tmp_path / 'siesta' / 'src'}:{ROOT}", "PYTEST_PLUGINS": "siesta"})
+    assert tested.returncode == 0, tested.stdout
+    project = tomllib.loads((tmp_path / "siesta" / "pyproject.toml").read_text())["project"]
+    assert project["entry-points"]["attnlab.plugins"] == {"siesta": "siesta"}
