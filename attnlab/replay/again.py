@@ -57,7 +57,7 @@ def live_again(plan: RunPlan, folder: Path, phase: str, episode: int) -> Lived:
                 outcome = run_episode(agent, exploration, plan.start_pose(now, i), learning)
                 if wanted:
                     recorder.episode(agent, now, i, *outcome, True)
-                    return Lived(pd.DataFrame(recorder.tables["cycles"]), outcome[1] or "none", before)
+                    return Lived(pd.DataFrame(recorder.tables["cycles"]), outcome[0] or "none", before)
     finally:
         simulator.close()
     raise ConfigError("--episode", f"there is no {phase} episode {episode}", _asked(s.train_episodes,
