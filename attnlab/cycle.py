@@ -47,6 +47,9 @@ class Agent:
         for attention in self.attentions:
             attention.curiosity.attach(self.now)
         self.fusion.attach(self.attentions)
+        layout = getattr(self.simulator, "layout", None)  # none where the parts alone are asked
+        if layout is not None:
+            self.body.larder.wander([solid.kind for solid in layout.solids])
 
     def start(self, x: float, y: float, heading: float) -> None:
         """Everything as at the start of an episode, with the robot at this pose."""

@@ -90,9 +90,9 @@ class Reading:
     meal_interval_cycles: int = setting(25, "cycles between two meals of the same kind; ours, the paper has none: 1 is "
                                       "a meal at every look",
                                         unit="mc", low=1)
-    food_supply: Literal["endless", "depletion", "respawn"] = setting(
-        "endless", "sources are endless, empty after food_portions meals (depletion), or fill again after "
-        "food_respawn_cycles (respawn)")
+    food_supply: Literal["endless", "depletion", "respawn", "wandering"] = setting(
+        "endless", "sources are endless, empty after food_portions meals (depletion), fill again after "
+        "food_respawn_cycles (respawn), or appear at the next cube of their kind (wandering)")
     food_portions: int = setting(5, "meals in a source, unless endless", low=1)
     food_respawn_cycles: int = setting(300, "cycles until an empty source is full again", unit="mc", low=1)
     start_pose: Literal["random", "fixed"] = setting(

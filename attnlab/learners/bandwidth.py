@@ -18,7 +18,7 @@ class Bandwidth(Watchful):
     Whittle's index of f, (p - 1) f(p) - sum_{0<k<p} f(k), exceeds lambda (Tripathi & Modiano 2019, arXiv 1908.10438, on
     a channel that loses nothing). Values are minus that cost.
 
-    lambda is one number for all behaviours: after every look it grows by ``step`` (looks a cycle - ``budget``), not
+    lambda is one number for all behaviours: with every cycle it grows by ``step`` (looks a cycle - ``budget``), not
     below 0, the looks a cycle being the sum over behaviours of one by the mean period of its latest ones. At a
     dangerous percept danger is known, and each cycle in which it is not watched costs one. Draws nothing at random.
     """
@@ -55,4 +55,4 @@ class Bandwidth(Watchful):
         looks = 0.0
         for mean in means.values():
             looks += 1.0 / mean
-        shared["price"] = max(0.0, shared["price"] + p.step * (looks - p.budget))
+        shared["price"] = max(0.0, shared["price"] + p.step * (looks - p.budget) * cycles / len(means))

@@ -58,8 +58,9 @@ class TempoRL(Learner):
     """TempoRL (:class:`TempoTables`) with periods for skips. A behaviour has one thing to do, its motor schema, so that
     Q(s) is the value of looking in every cycle from here on, and Q_J(s,p) that of doing so after a period p.
 
-    ``observe=endpoints``: only what was looked at is known; the period's one reward R comes at its end (ours: Q_J(s,p)
-    <- R + gamma^p Q(s'), and Q(s) learns from periods of one cycle). ``observe=all``: the percepts and rewards between
+    ``observe=endpoints``: only what was looked at is known; the period's one reward R, which comes at its end, is taken
+    for the rate of reward throughout it (ours: Q_J(s,p) <- sum_{k<p} gamma^k R + gamma^p Q(s'), and Q(s) learns from
+    periods of one cycle). ``observe=all``: the percepts and rewards between
     looks are known, as TempoRL has it, and every stretch is learned from; whoever replays a log can give them, a robot
     that did not look cannot. Draws nothing at random.
     """
@@ -77,19 +78,22 @@ class TempoRL(Learner):
         self.needs_between = params.observe == "all"
         self.tables = TempoTables(context.states, 1, context.periods, params.alpha, params.gamma)
         self.q = [rows[0] for rows in self.tables.skip]
+        self._during = [0.0]
+        for k in range(max(context.periods)):
+            self._during.append(self._during[k] + params.gamma ** k)
 
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
-        self._learn(state, action, reward, next_state)
+        self._learn(state, action, reward, self._during[cycles], next_state)
 
     def terminal(self, state: int, action: int, reward: float) -> None:
-        self._learn(state, action, reward, None)
+        self._learn(state, action, reward, 1.0, None)
 
-    def _learn(self, state: int, action: int, reward: float, after: int | None) -> None:
+    def _learn(self, state: int, action: int, reward: float, during: float, after: int | None) -> None:
         self.visits[state][action] += 1
         period = self.context.periods[action]
         if period == 1:
             self.tables.step(state, 0, reward, after)
-        self.tables.stretch(state, 0, reward, period, after)
+        self.tables.stretch(state, 0, during * reward, period, after)
 
     def watched(self, path: Sequence[int], rewards: Sequence[float], ended: bool) -> None:
         self.tables.path(path, 0, rewards, ended)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, inf
 from typing import Any
@@ -29,16 +30,35 @@ class Need:
 
 
 class Larder:
-    """How much was taken from each source (by index of its solid), and when an empty one fills again."""
+    """How much was taken from each source (by index of its solid), and when an empty one fills again.
+
+    ``following``: where what ran dry in a source appears next, if sources wander; nothing otherwise.
+    """
 
     def __init__(self, reading: Reading):
         self.reading = reading
         self.eaten, self.full_again = [0], [0]
+        self.following: list[int] = []
+        self._empty_first: list[int] = []
 
     def start(self) -> None:
-        """All are full."""
+        """All are full; of sources that wander the first place of each kind alone."""
         for solid in range(len(self.eaten)):
             self.eaten[solid] = self.full_again[solid] = 0
+        for solid in self._empty_first:
+            self.full_again[solid] = self.reading.max_cycles + 1
+
+    def wander(self, kinds: Sequence[str]) -> None:
+        """With ``reading.food_supply=wandering``: the ``kinds`` of all solids, in whose order a source goes from place
+        to place of its kind."""
+        if self.reading.food_supply != "wandering":
+            return
+        self.reserve(len(kinds))
+        places = {kind: [i for i, other in enumerate(kinds) if other == kind] for kind in kinds}
+        after = {a: b for same in places.values() for a, b in zip(same, [*same[1:], same[0]], strict=True)}
+        self.following = [after[i] for i in range(len(kinds))]
+        self._empty_first = [i for same in places.values() for i in same[1:]]
+        self.start()
 
     def reserve(self, solids: int) -> None:
         """Make room for so many solids."""
@@ -62,6 +82,8 @@ class Larder:
         if self.eaten[solid] % r.food_portions == 0:
             respawns = r.food_supply == "respawn"
             self.full_again[solid] = cycle + r.food_respawn_cycles if respawns else r.max_cycles + 1
+            if r.food_supply == "wandering" and self.following:
+                self.full_again[self.following[solid]] = cycle
 
 
 class Body:

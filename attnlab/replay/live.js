@@ -3,14 +3,18 @@
 // and clocks, from the state in which the recorded episode began. A test holds it to the original.
 
 class Larder {
-  constructor(reading) { this.r = reading; this.eaten = {}; this.fullAgain = {}; }
+  constructor(reading, body) {
+    this.r = reading; this.eaten = {}; this.following = body.following;
+    this.fullAgain = Object.fromEntries(body.empty.map(solid => [solid, reading.max_cycles + 1]));
+  }
   has(solid, cycle) { return this.r.food_supply === "endless" || cycle >= (this.fullAgain[solid] ?? 0); }
   take(solid, cycle) {
     if (this.r.food_supply === "endless") return;
     this.eaten[solid] = (this.eaten[solid] ?? 0) + 1;
-    if (this.eaten[solid] % this.r.food_portions === 0)
-      this.fullAgain[solid] = this.r.food_supply === "respawn" ? cycle + this.r.food_respawn_cycles
-        : this.r.max_cycles + 1;
+    if (this.eaten[solid] % this.r.food_portions !== 0) return;
+    this.fullAgain[solid] = this.r.food_supply === "respawn" ? cycle + this.r.food_respawn_cycles
+      : this.r.max_cycles + 1;
+    if (this.r.food_supply === "wandering") this.fullAgain[this.following[solid]] = cycle;
   }
 }
 
@@ -20,7 +24,7 @@ class Body {
     Object.assign(this, { needs: body.needs, eU: body.e_u, eNb: body.e_nb, energy: body.energy, r: reading });
     this.values = this.needs.map(need => need.start);
     this.eaten = this.needs.map(() => 0);
-    this.larder = new Larder(reading);
+    this.larder = new Larder(reading, body);
   }
   index(name) { return this.needs.findIndex(need => need.name === name); }
   need(name) { return this.values[this.index(name)]; }

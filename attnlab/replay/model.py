@@ -44,7 +44,8 @@ def model_of(plan: RunPlan, phase: str, before: Mapping[str, Any] | None, start:
             "curious": not getattr(agent.attentions[0].curiosity, "_plain", False),
             "persists": agent.attentions[0].curiosity.persists,
             "body": {"energy": before["energy"] if r.energy_carry_over and not before["dead"] else body.energy_start,
-                     "e_u": body.e_u, "e_nb": body.e_nb, "needs": [dataclasses.asdict(need) for need in body.needs]},
+                     "e_u": body.e_u, "e_nb": body.e_nb, "needs": [dataclasses.asdict(need) for need in body.needs],
+                     "following": body.larder.following, "empty": body.larder._empty_first},
             "behaviours": [_behaviour(attention, state)
                            for attention, state in zip(agent.attentions, before["behaviours"], strict=True)]}, ""
 

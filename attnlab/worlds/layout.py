@@ -49,8 +49,8 @@ class StartParams:
 @dataclass
 class SourceParams:
     """How much the sources of a world give; what is left out is as the reading has it."""
-    supply: Literal["endless", "depletion", "respawn"] | None = setting(
-        None, "endless, depletion or respawn; reading.food_supply if left out")
+    supply: Literal["endless", "depletion", "respawn", "wandering"] | None = setting(
+        None, "endless, depletion, respawn or wandering; reading.food_supply if left out")
     portions: int | None = setting(None, "meals in a source; reading.food_portions if left out", low=1)
     respawn_cycles: int | None = setting(None, "reading.food_respawn_cycles if left out", unit="mc", low=1)
 

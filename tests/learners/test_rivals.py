@@ -32,11 +32,12 @@ WAYS = ("q_learning", "double_q", "sarsa", "expected_sarsa", "q_lambda", "tempo_
 
 
 def test_tempo_rl_by_hand():
-    """alpha 1, gamma 0.5. 3 -> 5 in a cycle: Q(3) = 1 + 0.5 * Q(5) = 1; then 7 -> 3 after four: 2 + 0.5^4 * 1."""
+    """alpha 1, gamma 0.5. 3 -> 5 in a cycle: Q(3) = 1 + 0.5 * Q(5) = 1; then 7 -> 3 after four at a rate of 2: 3.75 +
+    0.5^4 * 1."""
     made = clock("tempo_rl", alpha=1.0, gamma=0.5)
     made.update(3, 0, 1.0, 5, -1, 1)
     made.update(7, 1, 2.0, 3, -1, 4)
-    assert made.q[3] == [1.0, 0.0, 0.0, 0.0] and made.q[7] == [0.0, 2.0625, 0.0, 0.0]
+    assert made.q[3] == [1.0, 0.0, 0.0, 0.0] and made.q[7] == [0.0, 3.8125, 0.0, 0.0]
     assert made.tables.behaviour[7] == [0.0]  # a period of four cycles says nothing of one
     made.terminal(7, 3, -10.0)
     assert made.q[7][3] == -10.0 and made.visits[7] == [0, 1, 0, 1]
@@ -145,7 +146,8 @@ def test_values_are_those_of_value_iteration(name):
         flat = [0.0] * 6
         for _ in range(500):
             flat = [earn(1, (x + 1) % 6) + 0.9 * flat[(x + 1) % 6] for x in range(6)]
-        exact = [[earn(p, (x + p) % 6) + 0.9 ** p * flat[(x + p) % 6] for p in PERIODS] for x in range(6)]
+        during = {p: (1 - 0.9 ** p) / 0.1 for p in PERIODS}
+        exact = [[during[p] * earn(p, (x + p) % 6) + 0.9 ** p * flat[(x + p) % 6] for p in PERIODS] for x in range(6)]
         made = drive(clock(name), RING, earn, 40_000)
         assert [made.q[6 + x] for x in range(6)] == [pytest.approx(row, abs=1e-3) for row in exact]
 
@@ -198,8 +200,8 @@ def test_bandwidth_looks_where_whittles_index_exceeds_the_price(price):
 
 
 def test_the_price_of_looks_keeps_a_shared_budget():
-    """Two behaviours that look in every cycle raise it, by 0.02 (2 - 0.4) a look once both are known; rare looks lower
-    it, never below nothing."""
+    """Two behaviours that look in every cycle raise it, by 0.02 (2 - 0.4) a cycle once both are known, of which each
+    brings its half; rare looks lower it, never below nothing."""
     shared = {}
     one, two = (clock("bandwidth") for _ in range(2))
     for made, name in ((one, "avoid"), (two, "eat")):
@@ -208,7 +210,7 @@ def test_the_price_of_looks_keeps_a_shared_budget():
     one.update(0, 0, 0.0, 0, -1, 1)
     assert shared["price"] == pytest.approx(0.1 + 0.02 * 0.6)
     two.update(0, 0, 0.0, 0, -1, 1)
-    assert shared["price"] == pytest.approx(0.112 + 0.02 * 1.6)
+    assert shared["price"] == pytest.approx(0.112 + 0.02 * 1.6 / 2)
     for _ in range(300):
         one.update(0, 3, 0.0, 0, -1, 12)
         two.update(0, 3, 0.0, 0, -1, 12)

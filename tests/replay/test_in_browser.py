@@ -29,6 +29,10 @@ CASES = {
     "tired": {"how": {"food_supply": "respawn", "food_portions": 1, "food_respawn_cycles": 60, "energy_death": True,
                       "energy_start": 1500.0, "energy_carry_over": True, "novelty_persists": True,
                       "need_start": 800.0}, "seed": 7, "max_cycles": 1150, "learner": "double_q"},
+    "wandering": {"learner": "fixed_4", "max_cycles": 1150, "seed": 6, "world": {
+        "name": "layout", "sources": {"supply": "wandering", "portions": 1},
+        "boxes": [{"kind": "food", "x_m": 0.4, "y_m": 1.0}, {"kind": "food", "x_m": 3.0, "y_m": 3.4},
+                  {"kind": "water", "x_m": 3.0, "y_m": 1.0}, {"kind": "water", "x_m": 0.4, "y_m": 3.0}]}},
     "fixed": {"learner": {"name": "fixed", "periods": FIXED}, "max_cycles": 1150, "seed": 4,
               "world": {"name": "layout", "boxes": [{"kind": "obstacle", "x_m": 1.4, "y_m": 2.5, "yaw_rad": 0.5},
                                                     {"kind": "food", "x_m": 0.4, "y_m": 1.0, "yaw_rad": 0.2},

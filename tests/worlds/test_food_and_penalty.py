@@ -29,6 +29,43 @@ def test_larder_by_hand():
     assert again.has(7, 61)  # full: two portions again
 
 
+def test_a_source_wanders_from_cube_to_cube():
+    """Two portions each: food goes 1 -> 3 -> 4 -> 1, water, which has one cube, comes back to where it was."""
+    larder = Larder(reading(food_supply="wandering", food_portions=2))
+    larder.wander(["wall", "food", "water", "food", "food"])
+
+    def full(cycle):
+        return [solid for solid in range(5) if larder.has(solid, cycle)]
+    assert full(0) == [0, 1, 2]
+    for now, (place, after) in enumerate(((1, 3), (3, 4), (4, 1), (1, 3))):
+        larder.take(place, 10 * now)
+        assert full(10 * now) == [0, *sorted((2, place))]
+        larder.take(place, 10 * now + 5)
+        assert full(10 * now + 5) == [0, *sorted((2, after))]
+    larder.take(2, 50)
+    larder.take(2, 51)
+    assert 2 in full(51)
+    larder.start()
+    assert full(0) == [0, 1, 2]
+    still = Larder(reading(food_supply="depletion", food_portions=1))
+    still.wander(["food", "food"])
+    assert still.has(0, 0) and still.has(1, 0)
+
+
+@pytest.mark.parametrize("simulator", ["planar", "pybullet"])
+def test_the_wandering_world_makes_the_robot_move_on(simulator):
+    """In either simulator: with one portion a cube it must find the next one, and eats less often."""
+    boxes = [{"kind": "food", "x_m": 0.25, "y_m": 1.0}, {"kind": "water", "x_m": 3.75, "y_m": 3.0},
+             {"kind": "food", "x_m": 3.0, "y_m": 0.25}, {"kind": "water", "x_m": 1.0, "y_m": 3.75}]
+    base = {"name": "layout", "boxes": boxes}
+    counts = {}
+    for supply in ("endless", "wandering"):
+        tables = run(**EASY, simulator=simulator, world={**base, "sources": {"supply": supply, "portions": 1}})
+        counts[supply] = sum(tables["episodes"]["meals"]), sum(tables["episodes"]["path_m"])
+    assert 0 < counts["wandering"][0] < counts["endless"][0]
+    assert counts["wandering"][1] != counts["endless"][1]
+
+
 def test_depleting_food_caps_the_meals_of_an_episode():
     plenty = run(**EASY)["episodes"]
     scarce = run(**EASY, how={"food_supply": "depletion", "food_portions": 1})["episodes"]
