@@ -54,8 +54,9 @@ class Rewards(Figure):
         return figure
 
     def say(self, conditions: Conditions) -> str:
-        return validation(conditions, [("extrinsic part ", Reward(Reward.Params(extrinsic=True))),
-                                       ("as mixed by eq 4 ", Reward(Reward.Params()))], " UoR an episode")
+        forms = {"extrinsic part with penalties ": Reward.Params(extrinsic=True),
+                 "without them ": Reward.Params(extrinsic=True, penalties=False), "as mixed by eq 4 ": Reward.Params()}
+        return validation(conditions, [(name, Reward(form)) for name, form in forms.items()], " UoR an episode")
 
 
 def _lines(ax: Axes, panel: Panel, name: str | None, block: int) -> np.ndarray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -45,6 +44,7 @@ def quantities(study: Study) -> Values:
 
 def rows(study: Study, pairs: Iterable[tuple[str, str]]) -> list[dict[str, object]]:
     """A row a pair and quantity; a pair of which a condition has no runs has none."""
+    from attnlab.stats import t_interval
     values, found = quantities(study), []
     names = list(dict.fromkeys(study.named().values()))
     wanted = [(one, other) for first, other in pairs for one in ([first] if first else names) if one != other]
@@ -52,20 +52,11 @@ def rows(study: Study, pairs: Iterable[tuple[str, str]]) -> list[dict[str, objec
         for quantity, (unit, of) in values.items():
             if {one, other} <= set(of.index.get_level_values(0)):
                 both = of[one].to_frame("one").join(of[other].rename("other"), how="inner").dropna()
-                found.append(dict(zip(COLUMNS, (quantity, unit, one, other, len(both), both["one"].mean(),
-                                                both["other"].mean(), *t_interval(both["one"] - both["other"])),
-                                      strict=True)))
+                ends = t_interval(both["one"] - both["other"])
+                cells = (quantity, unit, one, other, len(both), both["one"].mean(), both["other"].mean(),
+                         *map(float, ends[:3]))
+                found.append(dict(zip(COLUMNS, cells, strict=True)))
     return found
-
-
-def t_interval(sample: pd.Series) -> tuple[float, float, float]:
-    """(mean, ends of the 95 % interval); no ends under two values."""
-    from scipy.stats import t
-    mean, count = float(sample.mean()), len(sample)
-    if count < 2:
-        return mean, math.nan, math.nan
-    reach = float(t.ppf(0.975, count - 1) * sample.std(ddof=1) / math.sqrt(count))
-    return mean, mean - reach, mean + reach
 
 
 def write(file: Path, found: Iterable[Mapping[str, object]]) -> None:
