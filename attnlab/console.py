@@ -38,7 +38,8 @@ def undisturbed() -> Iterator[None]:
 
 def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = None) -> int:
     """Call ``main(argv)``; a ConfigError becomes one line on standard error and 2, Ctrl-C becomes 130, SIGTERM 143."""
-    if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) == signal.SIG_DFL:
+    ours = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+    if ours:
         signal.signal(signal.SIGTERM, _terminated)
     try:
         return main(sys.argv[1:] if argv is None else argv)
@@ -56,3 +57,6 @@ def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = N
             raise
         print(f"attnlab: {cause.filename or 'output'}: {cause.strerror}", file=sys.stderr)
         return 2
+    finally:
+        if ours:
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)

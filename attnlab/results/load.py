@@ -11,6 +11,7 @@ from attnlab.errors import ConfigError, nearest
 from attnlab.results.arrow import join, last_episode, repeated
 from attnlab.results.old import recovered, upgraded
 from attnlab.results.states import looks_like_run, states_in
+from attnlab.tables.files import mark_of
 from attnlab.tables.schema import TABLES
 from attnlab.tables.study import FILE, Condition, read_study
 
@@ -172,11 +173,12 @@ class Study:
     def _table(self, table: str, cut: Callable[[pa.Table], pa.Table] | None = None) -> pd.DataFrame:
         """Rows of all complete runs, of each what ``cut`` leaves. Arrow tables are joined before pandas sees them."""
         import pandas as pd
+        import pyarrow as pa
         import pyarrow.parquet as pq
         tables = []
         for name in self.complete:
             try:
-                found = pq.read_table(self.path / name / f"{table}.parquet", partitioning=None)
+                found = pq.read_table(pa.BufferReader(self._bytes(name, table)))
             except Exception as cause:  # noqa: BLE001  whatever the reader makes of a damaged file, the others go on
                 self._broken[name] = f"{table}.parquet: {cause}"
                 self.__dict__.pop("runs", None)
@@ -185,6 +187,15 @@ class Study:
             tables.append(self._marked(name, found, table) if cut is None else cut(found))
         tables = [found for found in tables if len(found)] or tables[:1]
         return join(tables) if tables else pd.DataFrame()
+
+    def _bytes(self, run: str, table: str) -> bytes:
+        """A table's file. Raises ValueError if it is not what the run wrote."""
+        data = (self.path / run / f"{table}.parquet").read_bytes()
+        marks = self.about(run).get("tables")
+        mark = marks.get(table) if isinstance(marks, dict) else None
+        if isinstance(mark, dict) and mark_of(data)["sha256"] != mark.get("sha256"):
+            raise ValueError("is not what the run wrote")
+        return data
 
     def _marked(self, run: str, found: pa.Table, table: str) -> pa.Table:
         """A run's table with the study, the condition, and the settings that set it apart."""

@@ -45,10 +45,10 @@ def _check_parquet(path: Path) -> str:
     return "" if head == tail == b"PAR1" else f"{path.name} is cut off or no Parquet file"
 
 
-def check_mark(path: Path, mark: dict[str, Any], data: bytes | None = None) -> str:
-    """Empty if a table (``data``, if it was read already) is as run.json says it was written, else what is wrong."""
+def check_mark(path: Path, mark: dict[str, Any]) -> str:
+    """Empty if a table is as run.json says it was written, else what is wrong."""
     try:
-        found = mark_of(path.read_bytes() if data is None else data)
+        found = mark_of(path.read_bytes())
     except OSError:
         return f"{path.name} cannot be read"
     return "" if found["sha256"] == mark.get("sha256") else f"{path.name} is not what the run wrote"

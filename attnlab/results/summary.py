@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from attnlab.results.load import Study
+from attnlab.tables.numbers import needs_in
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -16,22 +17,49 @@ EDGES = 3  # characters of a table that no column has
 FORMS = {"early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "energy": ".0f", "safety": ".2f"}
 
 
-def needs_in(columns: Iterable[str]) -> list[str]:
-    """Names of the needs that the table ``episodes`` tells of: hunger, thirst, and those that plugins bring."""
-    columns = list(columns)
-    return [name for column in columns if column.endswith("_mean") and (name := column[:-5]) not in ("energy", "safety")
-            and f"{name}_max" in columns and f"{name}_min" not in columns]
-
-
 def summary_frame(study: Study, named: Mapping[str, str]) -> pd.DataFrame:
     """One row a condition (pandas frame): means over seeds of survival (early and late half of training, validation),
     needs, activations and safety (all of validation, or of training where there is none). ``named``: the runs to take,
-    and what the condition of each is called; rows come in that order."""
+    and what the condition of each is called; rows come in that order. From the numbers in run.json where all runs have
+    them, else from the tables."""
+    import pandas as pd
+    rows = []
+    kept = {run: study.about(run).get("numbers") for run in named}
+    names = behaviours_of(study, named)
+    for name in dict.fromkeys(named.values()):
+        runs = [run for run, of in named.items() if of == name]
+        numbers = [n for run in runs if isinstance(n := kept[run], Mapping)]
+        if len(numbers) < len(runs):
+            return _from_tables(study, named)
+        needs = dict.fromkeys(need for n in numbers for need in n["needs"])
+        acts = [_mean([n["activations"].get(behaviour) for n in numbers]) for behaviour in names]
+        rows.append({
+            "condition": name, "runs": len(runs),
+            **{key: _mean([n[key] for n in numbers]) for key in ("early", "late", "validation", "crashed")},
+            **{need: _mean([n["needs"].get(need) for n in numbers]) for need in needs},
+            **{key: _mean([n[key] for n in numbers]) for key in ("energy", "safety")},
+            "activations": " ".join(f"{n:.0f}" if n == n else "-" for n in acts)})
+    return pd.DataFrame(rows)
+
+
+def behaviours_of(study: Study, named: Mapping[str, str]) -> list[str]:
+    """The behaviours of these runs, in the order in which they come first."""
+    found = dict.fromkeys(name for run in named for name in study.condition(run).config.get("behaviours", {}))
+    return list(found or study.behaviours["behaviour"].unique())
+
+
+def _mean(values: Sequence[float | None]) -> float:
+    found = [value for value in values if value is not None]
+    return sum(found) / len(found) if found else float("nan")
+
+
+def _from_tables(study: Study, named: Mapping[str, str]) -> pd.DataFrame:
+    """The same for runs of versions that kept no numbers."""
     import pandas as pd
     episodes, behaviours = (frame[frame["run"].isin(set(named))] for frame in (study.episodes, study.behaviours))
     episodes = episodes.assign(condition=episodes["run"].map(named))
     behaviours = behaviours.assign(condition=behaviours["run"].map(named))
-    rows, names = [], study.behaviours["behaviour"].unique()
+    rows, names = [], behaviours_of(study, named)
     groups, clocks = (dict(list(frame.groupby("condition", sort=False))) for frame in (episodes, behaviours))
     for name in dict.fromkeys(named.values()):
         if name not in groups:
@@ -68,7 +96,7 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
     frame = summary_frame(study, named)
     console = Console(width=width or (None if _is_terminal() else 110), highlight=False)
     heads = {"early": "survival\nearly", "late": "survival\nlate", "validation": "survival\nvalid.",
-             "activations": "activations\n" + " ".join(study.behaviours["behaviour"].unique())}
+             "activations": "activations\n" + " ".join(behaviours_of(study, named))}
     rows = [shown({str(name): value for name, value in row.items()}) for row in frame.to_dict("records")]
     columns = [[heads.get(str(key), str(key)), *cells] for key, cells in
                zip(frame.columns, zip(*rows, strict=True), strict=True)]

@@ -19,6 +19,7 @@ from attnlab.robot.plan import RunPlan
 from attnlab.tables.claim import Claim
 from attnlab.tables.code import versions
 from attnlab.tables.files import sweep_temporary, write_bytes, write_json, write_parquet
+from attnlab.tables.numbers import numbers_of
 from attnlab.tables.processes import birth
 from attnlab.tables.schema import SCHEMA_VERSION, TABLES
 
@@ -68,7 +69,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
             columns = plan.columns(name)
             about["tables"][name] = write_parquet(folder / f"{name}.parquet",
                                                   tables[name] or {column: [] for column in columns}, columns)
-        about.update(status="complete", cycles=cycles)
+        about.update(status="complete", cycles=cycles, numbers=numbers_of(tables))
     except ClaimLostError:
         raise
     except KeyboardInterrupt as cause:

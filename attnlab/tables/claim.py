@@ -55,11 +55,13 @@ class Claim:
 
 
 class Standing(NamedTuple):
-    """What a claim says from outside. ``dead``: empty, or why; ``silent_s``: since its last sign of life."""
+    """What a claim says from outside. ``working_s``: from its beginning to its last sign of life, ``silent_s``: since
+    then; ``dead``: empty, or why."""
     key: str
     owner: dict[str, Any]
     episodes: int
     cycles: int
+    working_s: float
     silent_s: float
     dead: str
 
@@ -189,10 +191,10 @@ def _remove(path: Path) -> None:
 def _standing(path: Path, clock: float | None) -> Standing | None:
     """What is to be said of a claim; None if it is there no more."""
     try:
-        last = (path / "beat").stat().st_mtime
+        last, begun = ((path / name).stat().st_mtime for name in ("beat", "owner.json"))
         text = (path / "beat").read_text()
     except OSError:
-        return None if not path.exists() else Standing(path.name.rpartition(".")[0], {}, 0, 0, 0.0, "half made")
+        return None if not path.exists() else Standing(path.name.rpartition(".")[0], {}, 0, 0, 0.0, 0.0, "half made")
     owner = read_json(path / "owner.json") or {}
     silent = max(0.0, (server_time(path.parent) if clock is None else clock) - last)
     dead = ""
@@ -202,4 +204,4 @@ def _standing(path: Path, clock: float | None) -> Standing | None:
         dead = f"nothing was heard of process {owner.get('pid')} of {owner.get('host')} for {silent:.0f} s"
     words = text.split()
     far = [int(word) for word in words] if len(words) == 2 and all(map(str.isdigit, words)) else [0, 0]
-    return Standing(path.name.rpartition(".")[0], owner, far[0], far[1], silent, dead)
+    return Standing(path.name.rpartition(".")[0], owner, far[0], far[1], last - begun, silent, dead)
