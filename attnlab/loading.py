@@ -108,10 +108,9 @@ def plugin_hashes(config: Mapping[str, Any]) -> dict[str, str]:
     words = set(_words(config))
     found: dict[str, str] = {}
     for spec in parts.values():
-        origin = Path(spec.origin)
         if GROUPS[spec.group].in_key and not GROUPS[spec.group].in_report and not words.isdisjoint(spec.options) \
-                and not origin.is_relative_to(PACKAGE) and origin.is_file():
-            for name, file in _files_of(spec, origin):
+                and not spec.origin.startswith(f"{PACKAGE}{os.sep}") and Path(spec.origin).is_file():
+            for name, file in _files_of(spec, Path(spec.origin)):
                 found[name] = hashlib.sha256(file.read_bytes()).hexdigest()[:16]
     return dict(sorted(found.items()))
 

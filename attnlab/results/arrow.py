@@ -9,12 +9,21 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 
-def repeated(value: Any, rows: int) -> pa.Array:
-    """A column of one value, stored once."""
-    import pyarrow as pa
-    if isinstance(value, str):
-        return pa.DictionaryArray.from_arrays(pa.array([0] * rows, pa.int32()), [value])
-    return pa.array([value] * rows)
+def marked(frame: pd.DataFrame, rows: list[int], first: dict[str, list[Any]], last: dict[str, list[Any]]
+           ) -> pd.DataFrame:
+    """The frame with columns before and after its own that have one value a run; ``rows``: how many each run has. Texts
+    are stored once."""
+    import numpy as np
+    import pandas as pd
+    of_run = np.repeat(np.arange(len(rows)), rows)
+
+    def spread(values: list[Any]) -> pd.Series[Any]:
+        texts = all(value is None or isinstance(value, str) for value in values)
+        found = pd.Series(pd.Categorical(values, list(dict.fromkeys(v for v in values if v is not None))) if texts
+                          else values)
+        return found.take(of_run).reset_index(drop=True)
+    return pd.concat([pd.DataFrame({name: spread(values) for name, values in first.items()}), frame,
+                      pd.DataFrame({name: spread(values) for name, values in last.items()}, index=frame.index)], axis=1)
 
 
 def last_episode(cycles: pa.Table) -> pa.Table:

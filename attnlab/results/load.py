@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from attnlab.errors import ConfigError, nearest
-from attnlab.results.arrow import join, last_episode, repeated
+from attnlab.results.arrow import join, last_episode, marked
 from attnlab.results.old import recovered, upgraded
 from attnlab.results.states import looks_like_run, states_in
 from attnlab.tables.files import mark_of
@@ -175,18 +175,21 @@ class Study:
         import pandas as pd
         import pyarrow as pa
         import pyarrow.parquet as pq
-        tables = []
+        tables: dict[str, pa.Table] = {}
         for name in self.complete:
             try:
-                found = pq.read_table(pa.BufferReader(self._bytes(name, table)))
+                found = pq.ParquetFile(pa.BufferReader(self._bytes(name, table))).read(use_threads=False)
             except Exception as cause:  # noqa: BLE001  whatever the reader makes of a damaged file, the others go on
                 self._broken[name] = f"{table}.parquet: {cause}"
                 self.__dict__.pop("runs", None)
                 continue
             found = upgraded(found, table, self.about(name))
-            tables.append(self._marked(name, found, table) if cut is None else cut(found))
-        tables = [found for found in tables if len(found)] or tables[:1]
-        return join(tables) if tables else pd.DataFrame()
+            tables[name] = found if cut is None else cut(found)
+        if not tables:
+            return pd.DataFrame()
+        kept = {name: found for name, found in tables.items() if len(found)} or dict([*tables.items()][:1])
+        frame = join(list(kept.values()))
+        return self._marked(frame, {name: len(found) for name, found in kept.items()}, table) if cut is None else frame
 
     def _bytes(self, run: str, table: str) -> bytes:
         """A table's file. Raises ValueError if it is not what the run wrote."""
@@ -197,16 +200,13 @@ class Study:
             raise ValueError("is not what the run wrote")
         return data
 
-    def _marked(self, run: str, found: pa.Table, table: str) -> pa.Table:
-        """A run's table with the study, the condition, and the settings that set it apart."""
-        condition = self.condition(run)
-        for place, (name, value) in enumerate((("study", self.name), ("condition", condition.name))):
-            found = found.add_column(place, name, repeated(value, len(found)))
-        if "episode" in found.column_names and table != "cycles":
-            for name in self.swept:
-                if name not in found.column_names:
-                    found = found.append_column(name, repeated(condition.settings.get(name), len(found)))
-        return found
+    def _marked(self, frame: pd.DataFrame, rows: dict[str, int], table: str) -> pd.DataFrame:
+        """A table with the study, the condition, and the settings that set it apart; ``rows`` of each run in it."""
+        swept = self.swept if "episode" in frame and table != "cycles" else []
+        conditions = [self.condition(run) for run in rows]
+        first = {"study": [self.name] * len(rows), "condition": [condition.name for condition in conditions]}
+        last = {name: [condition.settings.get(name) for condition in conditions] for name in swept if name not in frame}
+        return marked(frame, list(rows.values()), first, last)
 
     @cached_property
     def episodes(self) -> pd.DataFrame:
