@@ -46,7 +46,7 @@ def defaults_of(cls: type) -> dict[str, Any]:
 def build(cls: type[Settings], node: Any, where: str) -> Settings:
     """An instance of dataclass ``cls`` from the mapping ``node``; raises :class:`ConfigError` naming ``where``."""
     if not isinstance(node, Mapping):
-        raise ConfigError(where, f"expected settings by name, got {node!r}")
+        raise ConfigError(where, f"expected settings by name, got {_shown(node)}")
     fields = {field.name: field for field in dataclasses.fields(cls)}
     for key in node:
         if key not in fields:
@@ -97,11 +97,11 @@ def convert(value: Any, kind: Any, where: str) -> Any:
         return named
     if origin is list:
         if not isinstance(value, (list, tuple)):
-            raise ConfigError(where, f"expected a list, got {value!r}", "Write it as [a,b]")
+            raise ConfigError(where, f"expected a list, got {_shown(value)}", "Write it as [a,b]")
         return [convert(item, args[0], f"{where}[{i}]") for i, item in enumerate(value)]
     if origin is dict or kind is dict:
         if not isinstance(value, Mapping):
-            raise ConfigError(where, f"expected settings by name, got {value!r}")
+            raise ConfigError(where, f"expected settings by name, got {_shown(value)}")
         return dict(value)
     if isinstance(kind, type) and dataclasses.is_dataclass(kind):
         return build(kind, value, where)
@@ -116,7 +116,13 @@ def convert(value: Any, kind: Any, where: str) -> Any:
     if kind is str and isinstance(value, (str, int, float)) and not isinstance(value, bool):
         return str(value)
     names = {int: "a whole number", float: "a number", bool: "true or false", str: "a word"}
-    raise ConfigError(where, f"expected {names.get(kind, kind)}, got {value!r}")
+    raise ConfigError(where, f"expected {names.get(kind, kind)}, got {_shown(value)}")
+
+
+def _shown(value: Any) -> str:
+    """A value within a line of text."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _whole(value: float) -> bool:

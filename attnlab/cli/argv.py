@@ -12,6 +12,8 @@ INFOS = ("all", "config", "defaults", "defaults-tree", "plugins", "searchpath")
 TAKE_VALUES = {"-c": ("job", "hydra", "all"), "--cfg": ("job", "hydra", "all"), "-p": (), "--package": (),
                "-cd": (), "--config-dir": (),
                "-i": INFOS, "--info": INFOS, "-sc": (), "--shell-completion": ()}
+ASKS = ("-c", "--cfg", "-i", "--info", "--hydra-help", "-sc", "--shell-completion")  # shown, and nothing is run
+OF_CFG = ("--resolve", "-p", "--package")
 FLAGS = ("-m", "--multirun", "-h", "--help", "--version", "--resolve", "--hydra-help", *TAKE_VALUES)
 
 
@@ -32,6 +34,8 @@ def normalise(argv: list[str]) -> tuple[list[str], list[str]]:
                 raise ConfigError(argument, "no such flag", nearest(name, FLAGS))
             if equals and name in TAKE_VALUES:
                 _check_value(name, value)
+            elif equals:
+                raise ConfigError(argument, "takes no value", f"Write {name}")
             waiting = name if name in TAKE_VALUES and not equals else ""
             if argument not in flags:
                 flags.append(argument)
@@ -39,7 +43,19 @@ def normalise(argv: list[str]) -> tuple[list[str], list[str]]:
             overrides.append(_override(argument))
     if waiting:
         _check_value(waiting, "")
-    return flags, _one_list(overrides)
+    return _together(flags), _one_list(overrides)
+
+
+def _together(flags: list[str]) -> list[str]:
+    """The flags, if Hydra can do what they ask in one go."""
+    named = [flag.partition("=")[0] for flag in flags]
+    asks = [flag for flag in named if flag in ASKS]
+    if len(asks) > 1:
+        raise ConfigError(asks[1], f"cannot go with {asks[0]}", "One at a time")
+    for flag in named:
+        if flag in OF_CFG and not {"-c", "--cfg"} & set(named):
+            raise ConfigError(flag, "says how a config is shown", f"Write --cfg job {flag}")
+    return [flag for flag in flags if flag not in ("-m", "--multirun")] if asks else flags
 
 
 def _check_value(flag: str, value: str) -> None:
@@ -61,7 +77,10 @@ def _one_list(overrides: list[str]) -> list[str]:
                           "Write all names into the list: behaviours=[a,b,c]")
     names = [name.strip() for name in lists[0][len("behaviours=["):-1].split(",") if name.strip()]
     names += [o.partition("=")[2] for o in more]
-    whole = f"behaviours=[{','.join(dict.fromkeys(names))}]"
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise ConfigError("behaviours", f"{' '.join([*lists, *more])} names {twice[0]} twice", "Each once")
+    whole = f"behaviours=[{','.join(names)}]"
     return [whole if o == lists[0] else o for o in overrides if o not in more]
 
 

@@ -8,13 +8,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from attnlab import __version__, registry
-from attnlab.cli.argv import normalise
+from attnlab.cli.argv import ASKS, normalise
 from attnlab.console import guarded
 from attnlab.errors import ConfigError, describe
 from attnlab.loading import load_all
 from attnlab.paths import conf_dir
-
-ASKS = ("-m", "--multirun", "-c", "--cfg", "-i", "--info", "--hydra-help", "-sc", "--shell-completion")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -57,7 +55,7 @@ def hydra_application(arguments: list[str]) -> int:
     saved = sys.argv
     try:
         flags, overrides = opened(arguments)
-        if not any(flag.split("=")[0] in ASKS for flag in flags):
+        if not any(flag.partition("=")[0] in (*ASKS, "-m", "--multirun") for flag in flags):
             flags = ["-m", *flags]  # every invocation is a study, if of one run
         sys.argv = ["attnlab", *flags, *overrides]
         application()

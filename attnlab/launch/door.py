@@ -14,7 +14,7 @@ from typing import Any
 
 from hydra.core.object_type import ObjectType
 from hydra.core.override_parser.overrides_parser import OverridesParser
-from hydra.core.override_parser.types import Override, QuotedString
+from hydra.core.override_parser.types import Override, QuotedString, RangeSweep
 from hydra.errors import HydraException
 
 from attnlab import registry
@@ -29,6 +29,7 @@ ELSEWHERE = {  # groups of files that no run is composed of
     "figure": "Figures are drawn by python -m attnlab.report", "penalty": "reading.penalised=NAME"}
 OWN_NAMES = ("labels", "variants")  # settings that hold names of one's own
 MOST_CHECKED = 1000  # values of one sweep
+MOST_RUNS = 100_000  # of one command
 
 
 class Door:
@@ -86,7 +87,7 @@ class Door:
         if override.package is not None:
             raise ConfigError(text, "parts have their place, packages are not used", f"Write {key}=...")
         if key.partition(".")[0].partition("/")[0] == "hydra":
-            self._check_hydra(key, text)
+            self._check_hydra(key, text, override)
             return
         if override.is_delete():
             if key in RunSettings.__dataclass_fields__:
@@ -134,8 +135,10 @@ class Door:
             if names.count(name) > 1:
                 raise ConfigError(group, f"{_typed(value)} names {name} twice", "Each once")
 
-    def _check_hydra(self, key: str, text: str) -> None:
+    def _check_hydra(self, key: str, text: str, override: Override) -> None:
         if key in ALLOWED:
+            if override.is_delete() or override.value() is None:
+                raise ConfigError(text, "sets nothing", "Leave it out")
             return
         hints = {"launcher": "Where runs are done is a part of ours: cluster=local",
                  "sweeper": "Sweeps are typed: python -m attnlab learner.alpha=0.1,0.5 seed=0-9",
@@ -168,6 +171,7 @@ def _values(override: Override) -> list[Any]:
     key = override.key_or_group
     if not override.is_discrete_sweep():
         raise ConfigError(key, "interval(...) cannot be swept over all its values", "List them: a,b,c")
+    _check_range(override)
     try:
         values = list(islice(override.sweep_iterator(), MOST_CHECKED))
     except (ValueError, IndexError, HydraException):
@@ -177,6 +181,16 @@ def _values(override: Override) -> list[Any]:
     if key == "experiment":
         raise ConfigError(key, "each is a study of its own", "One command for each")
     return [_plain(value) for value in values]
+
+
+def _check_range(override: Override) -> None:
+    """Raise ConfigError for a range of more values than a study may have; Hydra would list them, were they endless."""
+    swept = override.value()
+    if isinstance(swept, RangeSweep) and swept.start is not None and swept.stop is not None and swept.step:
+        count = abs(float(swept.stop) - float(swept.start)) / abs(float(swept.step))
+        if not count <= MOST_RUNS:
+            raise ConfigError(override.key_or_group, f"{str(override.input_line).partition('=')[2]} has more than "
+                              f"{MOST_RUNS:,} values")
 
 
 def _plain(value: Any) -> Any:

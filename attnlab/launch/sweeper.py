@@ -28,7 +28,7 @@ from attnlab.config import COSMETIC
 from attnlab.errors import ConfigError
 from attnlab.groups import GROUPS
 from attnlab.launch.compose import Composer
-from attnlab.launch.door import Door
+from attnlab.launch.door import MOST_RUNS, Door
 from attnlab.launch.jobs import Job, check_different, condition_of, make_job
 from attnlab.launch.place import check_place
 from attnlab.launch.variants import as_override, read_variants
@@ -37,7 +37,6 @@ from attnlab.registry import build_params
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.ranges import RANGED, seeds
 
-MOST_RUNS = 100_000
 NAMESPACE = "hydra_plugins.attnlab"
 
 
@@ -67,7 +66,7 @@ class StudySweeper(Sweeper):
         composer, door = Composer(self.loader, self.master), Door(self.loader)
         merged = self._merged(door, arguments)
         swept = [_name(override) for override in merged.values() if override.is_sweep_override()]
-        for name in sorted(COSMETIC & set(swept)):
+        for name in sorted(name for name in swept if name.partition(".")[0] in COSMETIC):
             raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
         _check_size(merged.values())
         node = self.master.variants

@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from attnlab.config import COSMETIC
 from attnlab.errors import ConfigError, nearest
 
 DESIGNS = ("multiverse",)
@@ -26,8 +27,12 @@ def read_variants(node: Any) -> dict[str | None, dict[str, Any]]:
     for name, together in node.items():
         if not isinstance(together, Mapping) or not together:
             raise ConfigError(f"variants.{name}", f"expected {{setting: value}}, got {together!r}")
-        if "seed" in together:
-            raise ConfigError(f"variants.{name}.seed", "seeds are swept apart", "seed=0-4")
+        for setting in together:
+            if setting == "seed":
+                raise ConfigError(f"variants.{name}.seed", "seeds are swept apart", "seed=0-4")
+            if str(setting).partition(".")[0] in (*COSMETIC, "experiment"):
+                raise ConfigError(f"variants.{name}.{setting}", "is one for all runs of a command",
+                                  f"Type it beside: {setting}=...")
     return {str(name): dict(together) for name, together in node.items()}
 
 

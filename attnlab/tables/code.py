@@ -59,5 +59,5 @@ def package_hash() -> str:
 
 NUMBERS = frozenset({  # packages and modules whose text decides what a run computes
     "arithmetic", "attention", "compiled", "config", "cycle", "equations", "reading", "settings", "streams",
-    "behaviours", "curiosity", "exploration", "fusion", "kernels", "learners", "needs", "penalty", "robot",
+    "behaviours", "curiosity", "exploration", "fusion", "kernels", "learners", "needs", "penalty", "probes", "robot",
     "simulators", "tables", "worlds"})

@@ -140,7 +140,9 @@ def grow(folder: Path, typed: Sequence[str], conditions: Sequence[tuple[Conditio
     with locked(folder):
         study = read_study(folder) or before or StudyFile()
         study.commands.append({"typed": list(typed), "time": time.strftime("%Y-%m-%dT%H:%M:%S%z"), **code})
-        study.labels.update({str(value): str(label) for value, label in labels.items()})
+        new = {str(value): str(label) for value, label in labels.items()}
+        kept = {value: label for value, label in study.labels.items() if label not in new.values()}
+        study.labels = {**kept, **new}  # a label names one value, the one it was given last
         study.code, study.claims = dict(code), dict(claims) if claims else None
         study.cosmetic = dict(cosmetic or {})
         for condition, runs in conditions:

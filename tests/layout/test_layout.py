@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from attnlab.tables.code import NUMBERS
+
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "attnlab"
 
@@ -140,3 +142,15 @@ def test_nothing_heavy_is_imported_by(arguments):
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, cwd=ROOT, timeout=60,
                           check=True)
     assert done.stdout.strip().endswith("HEAVY []"), done.stdout[-300:]
+
+
+def test_the_hash_of_the_code_covers_all_that_numbers_come_from():
+    """What a robot runs with, but for what finds and names parts; a resume under other code is known by this hash."""
+    seen, queue = set(), [module for module in GRAPH if room(module) in ROBOT]
+    while queue:
+        module = queue.pop()
+        if module not in seen:
+            seen.add(module)
+            queue += GRAPH.get(module, ())
+    assert {room(module) for module in seen} - NUMBERS == {
+        "__init__", "callbacks", "errors", "groups", "loading", "paths", "registry"}

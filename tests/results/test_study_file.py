@@ -59,6 +59,12 @@ def test_growing_keeps_what_was_there_and_renames_all(tmp_path):
     assert read_study(tmp_path) == study
 
 
+def test_a_label_names_one_value_the_one_it_was_given_last(tmp_path):
+    grow(tmp_path, [], [(condition(), [("a", "k0", 0)])], {"litman": "CR"}, CODE, None)
+    study = grow(tmp_path, [], [(condition(curiosity="none"), [("b", "k1", 0)])], {"none": "CR"}, CODE, None)
+    assert study.labels == {"none": "CR"} and [c.name for c in study.conditions] == ["litman", "CR"]
+
+
 def test_many_commands_grow_a_study_at_once(tmp_path):
     def one(i):
         grow(tmp_path, [f"seed={i}"], [(condition(), [(f"r{i}", f"k{i}", i)])], {}, CODE, None)

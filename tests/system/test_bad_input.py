@@ -119,6 +119,20 @@ CASES = [
     (["--cfg", "jobs"], "--cfg", "One of: job, hydra, all"),
     (["-p"], "-p", "says nothing"),
     (["-cn", "smoke"], "-cn", "no such flag"),
+    (["--help=3"], "--help=3", "takes no value"),
+    (["--resolve"], "--resolve", "--cfg job --resolve"),
+    (["--cfg", "job", "--info", "all"], "--info", "cannot go with --cfg"),
+    (["hydra.verbose=null"], "hydra.verbose=null", "sets nothing"),
+    (["hydra/job_logging=null"], "hydra/job_logging=null", "sets nothing"),
+    (["learner.alpha=range(0,inf)"], "learner.alpha", "more than 100,000 values"),
+    (["learner.alpha=range(0,1e9)"], "learner.alpha", "more than 100,000 values"),
+    (["learner.alpha=range(0,1,1e-9)"], "learner.alpha", "more than 100,000 values"),
+    (["variants={a:{outputs:elsewhere}}"], "variants.a.outputs", "is one for all runs"),
+    (["variants={a:{cluster.jobs:2}}"], "variants.a.cluster.jobs", "is one for all runs"),
+    (["variants={a:{experiment:smoke}}"], "variants.a.experiment", "is one for all runs"),
+    (["cluster.jobs=1,2"], "cluster.jobs", "cannot be swept"),
+    (["behaviours=[avoid,rest]", "+behaviours=rest"], "behaviours", "names rest twice"),
+    (["world.boxes=" + "x" * 300], "world.boxes", "xxx..."),
 ]
 
 
