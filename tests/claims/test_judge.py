@@ -9,8 +9,6 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
-from small_study import write_run, write_study
-
 from attnlab import registry
 from attnlab.claims import rules as decide
 from attnlab.claims.files import load_claims
@@ -25,6 +23,7 @@ from attnlab.results.conditions import Conditions
 from attnlab.stats import Ends
 from attnlab.stats.levels import level_contrast, level_null
 from attnlab.tables.files import read_json, write_json
+from tests.report.small_study import write_run, write_study
 
 
 @pytest.fixture(scope="module")

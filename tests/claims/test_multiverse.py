@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
-from small_study import write_run
-
 from attnlab.claims.files import load_claims
 from attnlab.claims.judge import judge
 from attnlab.claims.roles import strata
@@ -18,6 +16,7 @@ from attnlab.launch.multiverse import balanced, design, imbalance, load_factors
 from attnlab.reading import Reading
 from attnlab.results import load
 from attnlab.results.conditions import Conditions
+from tests.report.small_study import write_run
 
 
 def test_64_readings_are_valid_and_balanced():

@@ -14,12 +14,11 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
-from small_study import write_study
-
 from attnlab.claims import DEFAULT, claims_hash
 from attnlab.claims.files import load_claims
 from attnlab.launch.multiverse import design
 from attnlab.results import load
+from tests.report.small_study import write_study
 
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "docs" / "results"

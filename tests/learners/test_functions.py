@@ -74,4 +74,4 @@ def test_the_cost_of_a_genome_is_what_looking_costs_less_survival(period, active
     setting = {"name": "evolution", "episodes": 2, "look_cost": 0.5}
     with Rehearsal(RunPlan(config(learner=setting, max_cycles=200, curiosity="none")), None) as play:
         outcomes, = play([candidate([period, period, 0.0] * 3, play.behaviours)], 2, "journal")
-    assert cost(outcomes, 0.5) == pytest.approx(0.5 * active / 200 - 1.0)
+    assert cost(outcomes, 0.5, 3) == pytest.approx(0.5 * active / 200 - 1.0)

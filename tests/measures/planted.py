@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from small_study import write_run
-
 from attnlab.results.conditions import Conditions, Runs
 from attnlab.results.load import load
 from attnlab.tables.files import write_parquet
 from attnlab.tables.schema import SCHEMA, TABLES, columns_of
+from tests.report.small_study import write_run
 
 Rows = list[dict[str, Any]]
 

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pytest
-from small_study import write_study
+
+from tests.report.small_study import write_study
 
 
 @pytest.fixture(scope="session")

@@ -41,9 +41,8 @@ def test_the_probe_would_notice(browser, tmp_path):
 
 
 def test_hostile_names_run_nothing(browser, tmp_path):
-    from small_study import write_run
-
     from attnlab.report.build import build
+    from tests.report.small_study import write_run
     hostile = "<img src=x onerror=\"document.title='owned'\"><script>document.title='owned'</script>"
     study = tmp_path / "study"
     write_run(study, "none", 0, labels={"none": hostile}, swept={"learner": hostile}, name="<svg onload=alert(1)>")

@@ -5,7 +5,6 @@ import shutil
 from html.parser import HTMLParser
 
 import pytest
-from small_study import write_run, write_study
 
 from attnlab.figures.base import FigureContext, gallery, make
 from attnlab.figures.panels import panels
@@ -14,6 +13,7 @@ from attnlab.report.build import build
 from attnlab.report.page import PROVENANCE
 from attnlab.results import load
 from attnlab.results.conditions import Conditions
+from tests.report.small_study import write_run, write_study
 
 FIGURES = [make(name, FigureContext()) for name in gallery()]
 HOSTILE = "<script>alert(1)</script>\"'&<img src=x onerror=alert(1)>$\\frac{"

@@ -7,7 +7,6 @@ import io
 
 import pandas as pd
 import pytest
-from small_study import write_study
 
 from attnlab.audit.table import load_table
 from attnlab.figures.base import FigureContext, make
@@ -15,6 +14,7 @@ from attnlab.figures.style import drawing
 from attnlab.report import table5
 from attnlab.results import load
 from attnlab.results.conditions import Conditions
+from tests.report.small_study import write_study
 
 
 @pytest.fixture

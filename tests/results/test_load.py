@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 
 import pandas as pd
-from small_study import write_run
 
 from attnlab.results.load import load
+from tests.report.small_study import write_run
 
 
 def test_tables_of_the_first_schema_are_read_as_todays(tmp_path):
