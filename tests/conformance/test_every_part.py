@@ -1,5 +1,7 @@
 """Every registered part keeps what its group promises; authors of plugins run the same suite."""
 
+from importlib.util import find_spec
+
 import pytest
 
 from attnlab import registry
@@ -10,6 +12,7 @@ from attnlab.testing.common import IN_A_RUN
 load_all()
 GROUPS = (*IN_A_RUN, "world", "penalty", "measure", "figure", "probe", "callback")
 CASES = [(spec.group, option, check) for spec in registry.parts.values() if spec.group in GROUPS
+         and all(map(find_spec, getattr(spec.cls, "requires", ())))
          for option in (spec.name, *spec.presets) for check in checks(spec.group)]
 
 SMALL = {("learner", "evolution"): {"generations": 1, "population": 5, "episodes": 1},  # the same, sooner
