@@ -37,7 +37,7 @@ FLOORS = (
     ("launch",),
     ("clusters",),
     ("cli", "testing"),
-    ("certify", "appraise", "replay", "gym", "fig1", "plot", "parts", "new", "retry", "watch", "work",
+    ("certify", "appraise", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "retry", "watch", "work",
      "api", "clock", "__main__"),
     ("render",),
 )
