@@ -46,18 +46,21 @@ def main() -> int:
     for study in () if a.page else STUDIES:
         if not a.names or study.name in a.names:
             minutes = run(study, a.outputs, a.keep, a.short)
+            if minutes is None:
+                print(f"{study.name} is not complete: nothing of it was copied; --keep goes on", file=sys.stderr)
+                return 1
             collect(study, a.outputs / study.name, a.to / study.name, minutes)
     write_pages(a.to)
     return 0
 
 
-def run(study: Study, outputs: Path, keep: bool, short: bool) -> float:
-    """Do the runs of a study and its report; minutes of wall time."""
+def run(study: Study, outputs: Path, keep: bool, short: bool) -> float | None:
+    """Do the runs of a study and its report; minutes of wall time, None if a run failed."""
     typed = [word for word in study.typed if not (short and word.startswith("seed="))]
     typed += [*(SHORT if short else ()), f"outputs={outputs}", *(() if keep else ("fresh=true",))]
     started = time.monotonic()
-    subprocess.run([sys.executable, "-m", "attnlab", *typed], check=True)
-    return (time.monotonic() - started) / 60
+    done = subprocess.run([sys.executable, "-m", "attnlab", *typed], check=False)
+    return (time.monotonic() - started) / 60 if done.returncode == 0 else None
 
 
 def collect(study: Study, made: Path, target: Path, minutes: float | None = None) -> None:
