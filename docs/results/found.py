@@ -93,9 +93,9 @@ def verdicts(folder: Path, study: str) -> dict[str, Finding]:
 
 
 def counts(found: dict[str, Finding]) -> str:
-    """``4 reproduced, 7 direction only, ...``, worst last."""
+    """``4 reproduced, 2 direction with number compatible, 7 direction only, ...``, worst last."""
     of = Counter(found.values())
-    return ", ".join(f"{of[finding]} {finding}" for finding in Finding)
+    return ", ".join(f"{of[finding]} {finding.replace(', ', ' with ')}" for finding in Finding)
 
 
 def sentences(folder: Path) -> list[str]:
