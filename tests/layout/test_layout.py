@@ -37,15 +37,15 @@ FLOORS = (
     ("launch",),
     ("clusters",),
     ("cli", "testing"),
-    ("certify", "appraise", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "retry", "watch", "work",
-     "api", "clock", "__main__"),
+    ("certify", "appraise", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "api", "clock", "__main__",
+     "export", "rerun", "retry", "watch", "work"),
     ("render",),
 )
 TOP = {  # modules that are no commands
     "__init__", "api", "arithmetic", "attention", "clock", "config", "console", "cycle", "equations", "errors",
     "groups", "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
 # thin modules for python -m; the others are packages with __main__
-COMMANDS = {"__main__", "fig1", "new", "parts", "retry", "watch", "work"}
+COMMANDS = {"__main__", "fig1", "new", "parts", "export", "rerun", "retry", "watch", "work"}
 NO_CODE = {"plugins", "templates"}
 ROBOT = {"robot", "attention", "cycle"}
 READER = {"results", "stats", "measures", "figures", "claims", "audit", "report"}

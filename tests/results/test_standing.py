@@ -85,3 +85,40 @@ def test_damage_inside_a_table_is_named(study):
         assert row["status"] == "damaged" and "is not what the run wrote" in row["why"]
     finally:
         table.write_bytes(whole)
+
+
+def test_made_once_more(study, capsys):
+    from attnlab.rerun import main as rerun
+    run = next(study.glob("*/run.json")).parent
+    before = {path: path.read_bytes() for path in run.iterdir()}
+    assert guarded(rerun, [str(run)]) == 0 and capsys.readouterr().out == "the same bytes\n"
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+    table = pq.read_table(run / "episodes.parquet", partitioning=None)
+    cycles = table["cycles"].to_pylist()
+    changed = [*cycles[:3], cycles[3] + 1, *cycles[4:]]
+    place = table.column_names.index("cycles")
+    pq.write_table(table.set_column(place, "cycles", pa.array(changed, pa.int32())), run / "episodes.parquet")
+    try:
+        assert guarded(rerun, [str(run)]) == 1
+        said_ = capsys.readouterr().out
+        assert said_.startswith(f"episodes: row 3, cycles: {changed[3]} is stored, {cycles[3]} is made now")
+    finally:
+        for path, data in before.items():
+            path.write_bytes(data)
+    assert guarded(rerun, [str(study)]) == 2
+
+
+def test_csv_that_no_spreadsheet_runs(study, tmp_path):
+    import pandas as pd
+
+    from attnlab.export import main as export
+    from attnlab.results.export import harmless
+    assert guarded(export, [str(study), "--csv", "--out", str(tmp_path)]) == 0
+    result = load(study)
+    for name in ("runs", "episodes", "behaviours", "policy", "cycles", "coverage"):
+        frame, found = getattr(result, name), pd.read_csv(tmp_path / f"{name}.csv")
+        assert list(found.columns) == list(frame.columns) and len(found) == len(frame)
+    assert pd.read_csv(tmp_path / "episodes.csv")["survival"].tolist() == result.episodes["survival"].tolist()
+    assert [harmless(text) for text in ("=1+1", "@x", "-2", "plain", 3)] == ["'=1+1", "'@x", "'-2", "plain", 3]
+    assert guarded(export, [str(study)]) == 2
