@@ -19,6 +19,7 @@ from attnlab.loading import config_homes, load_all
 from attnlab.measures.base import Measure
 from attnlab.results.conditions import Runs
 from attnlab.settings import build, setting
+from attnlab.tables.yamls import read_yaml
 
 if TYPE_CHECKING:
     import numpy as np
@@ -69,13 +70,18 @@ class Claims:
 
 def load_claims(name: str) -> Claims:
     """The claims file of this name or path. Raises ConfigError naming file, claim and field."""
-    import yaml
+    from yaml import MarkedYAMLError, YAMLError
     path = claims_path(name)
     data = path.read_bytes()
     try:
-        content = yaml.safe_load(data.decode())
-    except (yaml.YAMLError, UnicodeDecodeError) as cause:
-        raise ConfigError(str(path.name), f"is no readable YAML: {cause}") from None
+        content = read_yaml(data.decode())
+    except MarkedYAMLError as cause:  # where and what, and nothing of what the file says: it may be any file
+        mark = cause.problem_mark or cause.context_mark
+        raise ConfigError(f"{path.name}:{mark.line + 1}" if mark else path.name, "is no readable YAML",
+                          "Look at the line above it too") from None
+    except (YAMLError, ValueError) as cause:
+        why = "" if isinstance(cause, (YAMLError, UnicodeDecodeError)) else f": {cause}"
+        raise ConfigError(path.name, f"is no readable YAML{why}") from None
     where = path.name
     file = build(_File, content, where)
     if not file.claims:

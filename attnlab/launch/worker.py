@@ -11,6 +11,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from attnlab.console import lenient_streams
 from attnlab.loading import load_all
 from attnlab.robot.folder import ClaimLostError, run_to_folder
 from attnlab.tables.claim import Claim
@@ -27,6 +28,7 @@ def work(config: dict[str, Any], folder: str, info: dict[str, Any], pipe: Connec
     gone, leaving a run that says it was running."""
     for number in (signal.SIGINT, signal.SIGTERM):  # they are the parent's, who ends this process
         signal.signal(number, signal.SIG_IGN)
+    lenient_streams()
     end_with_parent()
     load_all()
     last, where = 0.0, Path(folder) / WHERE

@@ -7,6 +7,7 @@ from typing import Any
 
 from attnlab.tables.files import mark_of, read_json
 from attnlab.tables.schema import OLDEST_SCHEMA, SCHEMA_VERSION, TABLES
+from attnlab.tables.yamls import read_yaml
 
 State = tuple[str, str, dict[str, Any]]  # (status, why, run.json)
 
@@ -67,10 +68,9 @@ def states_in(study: Path) -> dict[str, State]:
 
 def read_config(folder: Path) -> dict[str, Any] | None:
     """The resolved config of a run; None if it is missing or unreadable."""
-    import yaml
+    from yaml import YAMLError
     try:
-        text = (folder / "config.yaml").read_text()
-        content = yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except (OSError, ValueError, yaml.YAMLError):
+        content = read_yaml((folder / "config.yaml").read_text())
+    except (OSError, ValueError, YAMLError, RecursionError):
         return None
     return content if isinstance(content, dict) else None
