@@ -48,7 +48,7 @@ def lint(session: nox.Session) -> None:
 @nox.session
 def types(session: nox.Session) -> None:
     """The package and the plugins under mypy, strict."""
-    session.install("-e", ".[types]")
+    session.install("-e", ".[types,gym,logs]")
     session.run("mypy", *session.posargs)
 
 
@@ -57,6 +57,13 @@ def docs(session: nox.Session) -> None:
     """What the pages say: their commands, also the slow ones, columns, worlds, links."""
     session.install("-e", ".[all]")
     session.run("python", "-m", "pytest", "-q", "-m", "", "tests/docs", *session.posargs)
+
+
+@nox.session(default=False)
+def site(session: nox.Session) -> None:
+    """The site into site/; warnings are errors."""
+    session.install("-e", ".[docs]")
+    session.run("mkdocs", "build", "--strict", *session.posargs)
 
 
 @nox.session(default=False)
