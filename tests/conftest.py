@@ -47,7 +47,9 @@ def here(tmp_path, monkeypatch, capsys):
             from attnlab.cli.main import main
             code = main([*arguments, *["cluster=serial"][:not any(a.startswith("cluster") for a in arguments)]])
         else:
-            code = guarded(import_module(f"{module}.__main__").main, list(arguments))
+            home = import_module(module)
+            home = home if hasattr(home, "main") else import_module(f"{module}.__main__")
+            code = guarded(home.main, list(arguments))
         return subprocess.CompletedProcess(arguments, code, *capsys.readouterr())
     return call
 

@@ -255,7 +255,7 @@ def test_ctrl_c_stops_cleanly_and_keeps_what_was_complete(tmp_path):
 
 def test_a_changed_plugin_runs_again(attnlab, tmp_path):
     assert attnlab("curiosity", "mine", module="attnlab.new").returncode == 0
-    typed = ("curiosity=mine", *SHORT)
+    typed = ("curiosity=mine", "cluster=serial", *SHORT)
     assert attnlab(*typed).returncode == 0
     assert "nothing to run" in attnlab(*typed).stdout
     plugin = tmp_path / "plugins" / "mine.py"
