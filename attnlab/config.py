@@ -39,6 +39,8 @@ class RunSettings:
     record: Literal["none", "last", "validation", "all"] = setting(
         "last", "episodes whose cycles are stored: the last one, all of validation, all, none")
     check_identities: bool = setting(True, "check the bookkeeping on every cycle")
+    engine: Literal["auto", "python", "compiled"] = setting(
+        "auto", "the loop as Python, or compiled from the same classes; auto compiles when it pays", cosmetic=True)
     picture: bool = setting(True, "draw the study's figures at its end", cosmetic=True)
     report: bool = setting(True, "build the study's report at its end", cosmetic=True)
     claims_file: str = setting("dinocera2014", "claims the study is judged by; its hash is stored with a run",

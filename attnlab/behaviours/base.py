@@ -92,6 +92,7 @@ class Behaviour(ABC):
     somebody must bring; ``simulators`` are those it can work in, all if empty.
     """
     name: str
+    interpreted = ""  # why it runs as Python alone, where it does not compile
     sigma_low: float = 0.0
     sigma_high: float = 1.0
     charges: tuple[str, ...] = ()

@@ -93,6 +93,9 @@ def about(spec: registry.Spec, option: str) -> str:
     if option != spec.name:
         lines.append(f"  a preset of {spec.name}: " + ", ".join(f"{k}={v}" for k, v in spec.presets[option].items()))
     lines += ["", inspect.getdoc(spec.cls) or "(no docstring)", ""]
+    if hasattr(spec.cls, "interpreted"):
+        lines += [f"Engine: Python alone; {spec.cls.interpreted}." if spec.cls.interpreted else
+                  "Engine: compiles (engine=compiled; what does not runs as Python, and run.json says why).", ""]
     if dataclasses.fields(spec.params):
         lines += [f"Parameters (set with {spec.group}.<name>=<value>"
                   + (f", for {spec.group}: {kind.node(option)}.<name>=<value>)" if kind.chosen == "list" else ")"),
@@ -140,7 +143,7 @@ def rows(group: str) -> Iterable[tuple[str, str, str]]:
         yield "inferred", "built in", "The default reading of the paper's open points"
     for spec in sorted((s for s in registry.parts.values() if s.group == group), key=lambda s: s.name):
         where = "built in" if source(spec) == "built in" else f"{source(spec)}, {short(spec.origin)}"
-        yield spec.name, where, summary(spec.cls)
+        yield spec.name, where, summary(spec.cls) + " (not compiled)" * bool(getattr(spec.cls, "interpreted", ""))
         for preset, values in sorted(spec.presets.items()):
             yield preset, where, f"{spec.name} with " + ", ".join(f"{k}={v}" for k, v in values.items())
     for (owner, name), file in named_configs().items():

@@ -36,7 +36,9 @@ def context_for(jobs: Sequence[Job]) -> Context:
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    heavy = ["attnlab.kernels.planar"] if any(job.config["simulator"].get("name") == "planar" for job in jobs) else []
+    compiled = any(job.engine is not None and job.engine.name == "compiled" for job in jobs)
+    planar = any(job.config["simulator"].get("name") == "planar" for job in jobs)
+    heavy = ["attnlab.compiled.engine"] if compiled else ["attnlab.kernels.planar"] if planar else []
     context.set_forkserver_preload(["attnlab.launch.preload", *heavy])
     try:
         forkserver.ensure_running()

@@ -37,6 +37,7 @@ class Curiosity(ABC):
     outlive the episode?
     """
     name: str
+    interpreted = ""  # why it runs as Python alone, where it does not compile
     levels: tuple[str, ...] = (LOW, LH, HH)
     high_wanting: float = 0.0
     high_liking: float = 0.5

@@ -66,6 +66,7 @@ class Composed(Curiosity):
     The memory holds one memory for the wanting and one for the liking; they are the same if both are the same model.
     ``persists`` is the liking's. Draws what its models draw.
     """
+    interpreted = "it takes methods from other models"
 
     @dataclass
     class Params:

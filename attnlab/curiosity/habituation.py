@@ -38,6 +38,7 @@ class Habituation(Curiosity):
     is new: liking 1, and a unit grows halfway between. At ``units`` units growth stops. Reads the sonars; ignores the
     percept. Draws nothing at random.
     """
+    interpreted = "its units grow"
 
     @dataclass
     class Params:

@@ -22,6 +22,7 @@ class LearningProgress(Curiosity):
     One history of errors for each percept (a cell of the sensory space): that of predicting what followed it. What is
     known and what cannot be known are both boring. Memory: (transitions, errors by cell). Draws nothing at random.
     """
+    interpreted = "its memory is a pair of lists that grow"
 
     @dataclass
     class Params:

@@ -23,6 +23,7 @@ class LitmanGap(Curiosity):
     same window. Wanting is high above ``high_wanting``. Memory: [a, the window]. The entropy and its threshold are
     ours. Draws nothing at random.
     """
+    interpreted = "its memory is a pair of lists"
     levels = (LOW, LH, HH)
 
     @dataclass

@@ -14,6 +14,10 @@ class Window:
         """The one that the next pushes out; -1 if there is room."""
         return self.last[self.at]
 
+    def seen(self) -> list[int]:
+        """Its percepts, the oldest first."""
+        return [percept for percept in (*self.last[self.at:], *self.last[:self.at]) if percept >= 0]
+
     def add(self, percept: int) -> None:
         """See this percept."""
         old = self.last[self.at]

@@ -10,6 +10,7 @@ from typing import Any
 class Exploration(ABC):
     """Chooses an action by its value."""
     name: str
+    interpreted = ""  # why it runs as Python alone, where it does not compile
 
     def __init__(self, params: Any, context: None = None):
         self.params = params

@@ -31,7 +31,7 @@ class Ucb1(Exploration):
         if 0 in visits:
             return visits.index(0)
         spread = 2.0 * log(total(visits))
-        bounds = [q + self.params.c * sqrt(spread / n) for q, n in zip(values, visits, strict=True)]
+        bounds = [q + self.params.c * sqrt(spread / visits[i]) for i, q in enumerate(values)]
         return bounds.index(max(bounds))
 
     def probabilities(self, values: list[float], visits: list[int]) -> list[float]:

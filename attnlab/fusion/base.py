@@ -27,6 +27,7 @@ class Clocked(Protocol):
 class Fusion(ABC):
     """Combines the held commands; a robot without any stands still."""
     name: str
+    interpreted = ""  # why it runs as Python alone, where it does not compile
 
     def __init__(self, params: Any, reading: Reading):
         self.params, self.reading = params, reading

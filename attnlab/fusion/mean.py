@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from attnlab.arithmetic import total
 from attnlab.fusion.base import Fusion
 from attnlab.registry import register
 
@@ -15,5 +14,9 @@ class Mean(Fusion):
         if not commands:
             return 0.0, 0.0
         r, n = self.reading, len(commands)
-        v, w = total(c[0] for c in commands) / n, total(c[1] for c in commands) / n
+        v = w = 0.0
+        for speed, turn in commands:
+            v += speed
+            w += turn
+        v, w = v / n, w / n
         return min(r.v_max_m_s, max(0.0, v)), min(r.w_max_rad_s, max(-r.w_max_rad_s, w))

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 from numba import njit
+from numba.core import sigutils
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -16,6 +17,16 @@ _told = False
 def inner(function: Function) -> Function:
     """Decorator: a function that compiled ones call, compiled with them."""
     return cast("Function", njit(error_model="numpy")(function))
+
+
+def is_kept(signature: str, function: Callable[..., Any], **options: Any) -> bool:
+    """Is the function, compiled for this signature, in numba's disk cache? It is not where no cache can be kept."""
+    try:
+        lazy = njit(cache=True, **options)(function)
+        arguments, _ = sigutils.normalize_signature(signature)  # type: ignore[no-untyped-call]
+        return lazy._cache.load_overload(arguments, lazy.targetctx) is not None
+    except (RuntimeError, OSError):
+        return False
 
 
 def compiled(signature: str, **options: Any) -> Callable[[Function], Function]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from attnlab.config import COSMETIC, RunSettings
-from attnlab.launch import robots
+from attnlab.launch import engines, robots
 from attnlab.launch.jobs import OTHER_CODE, Job, split
 from attnlab.launch.progress import Display
 from attnlab.registry import make
@@ -22,6 +22,7 @@ def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
     """Run a study; 0 if all of it is complete now, 1 if a run failed. ``typed``: the arguments that asked for it."""
     settings = jobs[0].settings
     todo, done, reasons, old = split(jobs, settings.fresh)
+    engines.prepare(todo)
     _ask(jobs, typed)
     folder = jobs[0].folder.parent
     why = ", ".join(f"{count} {reason}" for reason, count in reasons.items())

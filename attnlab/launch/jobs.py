@@ -12,6 +12,7 @@ from attnlab.config import RunSettings, run_key
 from attnlab.errors import ConfigError
 from attnlab.loading import plugin_hashes
 from attnlab.results.states import state_of
+from attnlab.robot.engines import Choice
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.code import code
 from attnlab.tables.flat import text
@@ -34,6 +35,7 @@ class Job:
     folder: Path
     claims: dict[str, str] | None = None
     seen: str | None = ""
+    engine: Choice | None = None  # the run chooses for itself
 
     @property
     def config(self) -> Mapping[str, Any]:
@@ -55,7 +57,7 @@ class Job:
     def info(self) -> dict[str, Any]:
         columns = {name: value for name, value in self.swept.items() if name != "curiosity"}
         return {"run": self.run, "key": self.key, "overrides": self.overrides, "swept": columns,
-                "condition": self.of.name, "code": code(), "claims": self.claims}
+                "condition": self.of.name, "code": code(), "claims": self.claims, "engine": self.engine}
 
 
 def condition_of(config: Mapping[str, Any], swept: Mapping[str, Any], overrides: Sequence[str] = ()) -> Condition:

@@ -58,6 +58,7 @@ class Rehearse(Protocol):
 class Learner(ABC):
     """Learns the next period of one behaviour's clock. ``q`` and ``visits`` are lists by state, then action."""
     name: str
+    interpreted = ""  # why it runs as Python alone, where it does not compile
     learns = True
     on_policy = False  # does update need the next action? Then that is chosen before the update, otherwise after
     needs_between = False  # does it learn by ``watched``, from every cycle between looks? Only a log can give them

@@ -16,6 +16,7 @@ class DoubleQ(QLearning):
 
     ``q`` and ``values`` are the mean of both. Draws one number an update.
     """
+    interpreted = "its two tables are a list of lists of lists"
 
     def __init__(self, params: TabularParams, context: LearnerContext):
         super().__init__(params, context)

@@ -16,6 +16,7 @@ from attnlab.registry import register
 class ExpectedSarsa(QLearning):
     """Q(s,a) <- (1 - alpha) Q(s,a) + alpha (R + gamma sum_a' pi(a'|s') Q(s',a')) (van Seijen et al. 2009, ADPRL, p.
     177), pi being the exploration in use, which must say how likely its choices are. Draws nothing at random."""
+    interpreted = "it keeps the exploration it is given"
 
     def __init__(self, params: TabularParams, context: LearnerContext):
         super().__init__(params, context)

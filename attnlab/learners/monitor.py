@@ -41,6 +41,7 @@ class Monitor(NoLearner):
     periods is taken. AVOID looks more often when something is near, EAT and DRINK when the need is great; the functions
     themselves are ours, the cited work sets them for its own robots. Ignores curiosity. Draws nothing at random.
     """
+    interpreted = "its function is of one of three kinds"
 
     @dataclass
     class Params:

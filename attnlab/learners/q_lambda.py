@@ -16,6 +16,7 @@ class QLambda(QLearning):
     every Q(x,b) grows by alpha delta e(x,b); the trace e(s,a) is 1 when visited (replacing), fades by gamma lambda,
     and all are cut when the next action is not a greedy one, and at the start of an episode. Draws nothing at
     random."""
+    interpreted = "its traces are a dictionary"
     on_policy = True
 
     @dataclass

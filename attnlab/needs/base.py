@@ -34,12 +34,13 @@ class Larder:
 
     ``following``: where what ran dry in a source appears next, if sources wander; nothing otherwise.
     """
+    following: list[int]
+    _empty_first: list[int]
 
     def __init__(self, reading: Reading):
         self.reading = reading
         self.eaten, self.full_again = [0], [0]
-        self.following: list[int] = []
-        self._empty_first: list[int] = []
+        self.following, self._empty_first = [], []
 
     def start(self) -> None:
         """All are full; of sources that wander the first place of each kind alone."""
@@ -82,7 +83,7 @@ class Larder:
         if self.eaten[solid] % r.food_portions == 0:
             respawns = r.food_supply == "respawn"
             self.full_again[solid] = cycle + r.food_respawn_cycles if respawns else r.max_cycles + 1
-            if r.food_supply == "wandering" and self.following:
+            if r.food_supply == "wandering" and len(self.following):
                 self.full_again[self.following[solid]] = cycle
 
 
@@ -189,6 +190,7 @@ class Body:
 class Needs(ABC):
     """Builds the body of a robot."""
     name: str
+    interpreted = ""  # why it runs as Python alone, where it does not compile
 
     def __init__(self, params: Any, reading: Reading):
         self.params, self.reading = params, reading

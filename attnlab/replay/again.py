@@ -4,12 +4,12 @@ stood when an episode began."""
 from __future__ import annotations
 
 import shutil
-from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from attnlab.curiosity.window import Window
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError
 from attnlab.robot.episode import run_episode
@@ -69,7 +69,7 @@ def state_of(agent: Agent) -> dict[str, Any]:
     the values it learned; and its energy."""
     return {"energy": agent.body.energy, "dead": agent.body.dead, "behaviours": [
         {"stream": list(a.behaviour.draw.getstate()[1]), "choices": list(a.draw.getstate()[1]),
-         "memory": list(a.memory) if isinstance(a.memory, deque) else [],
+         "memory": a.memory.seen() if isinstance(a.memory, Window) else [],
          "values": [list(a.learner.values(state)) for state in range(len(a.learner.q))]}
         for a in agent.attentions]}
 

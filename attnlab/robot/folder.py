@@ -11,7 +11,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from attnlab.errors import describe
 from attnlab.loading import plugin_hashes
+from attnlab.robot.engines import Choice, choose
 from attnlab.robot.episodes import Progress, play_run
 from attnlab.robot.guards import verdict
 from attnlab.robot.observers import Observers
@@ -48,7 +50,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
              "condition": info.get("condition"), "plugins": plugin_hashes(config),
              "versions": versions(), "code": info.get("code"), "claims": info.get("claims"),
-             "claim": claim.token if claim else None,
+             "claim": claim.token if claim else None, "engine": None, "engine_why": None,
              "pid": os.getpid(), "pid_birth": birth(os.getpid()), "host": platform.node(),
              "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
     write_json(folder / "run.json", about)
@@ -62,7 +64,15 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
             plan = RunPlan(config)
             observers = Observers(plan.callbacks(info["run"], folder))
             observers.start(config)
-            tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers)
+            engine = Choice(*(info.get("engine") or choose(plan)))
+            about.update(engine=engine.name, engine_why=engine.why)
+            try:
+                tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers, engine.name)
+            except Exception as cause:
+                if engine.name == "python":
+                    raise
+                about.update(engine="python", engine_why=f"compiled, it raised {describe(cause)}; played again")
+                tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers)
         _check_held(claim)
         about["tables"] = {}
         for name in TABLES:

@@ -70,6 +70,7 @@ class Simulator(ABC):
     each; ``cycle`` counts the cycles moved since :meth:`place`.
     """
     name: str
+    interpreted = ""  # why it runs as Python alone, where it does not compile
 
     def __init__(self, params: SensorParams, context: SimulatorContext):
         self.params, self.layout, self.dt_s = params, context.layout, context.dt_s
@@ -81,7 +82,8 @@ class Simulator(ABC):
     def place(self, x: float, y: float, heading: float) -> None:
         """Start anew: the robot at this pose (m, m, rad), at rest, cycle 0, the world as built."""
         self.cycle = 0
-        self.trace[0] = x, y, heading
+        pose = self.trace[0]
+        pose[0], pose[1], pose[2] = x, y, heading
 
     def pose(self) -> tuple[float, float, float]:
         """(x m, y m, heading rad)."""

@@ -49,6 +49,7 @@ class PyBullet(Simulator):
     software renderer, where walls are drawn only when the world has inner ones, as nothing hides behind the outer ones;
     ``camera=rays`` sends one ray a column (docs/simulators.md says what each costs).
     """
+    interpreted = "Bullet is not compiled"
 
     @dataclass
     class Params(SensorParams):

@@ -28,6 +28,7 @@ class Scripted(Simulator):
     point it rests. :meth:`hand` tells what a behaviour may know. The plane is empty: sonars hear nothing, nothing is in
     view, nothing is run into; the robot moves as an ideal unicycle. Draws nothing at random.
     """
+    interpreted = "its hand is looked up in a table of points"
 
     @dataclass
     class Params(SensorParams):

@@ -26,7 +26,7 @@ FLOORS = (
     ("curiosity", "penalty"),
     ("attention",),
     ("cycle", "probes"),
-    ("callbacks",),
+    ("callbacks", "compiled"),
     # the two wings: what runs a robot, what reads a study
     ("robot", "results", "stats"),
     ("measures",),
@@ -36,8 +36,8 @@ FLOORS = (
     # what knows both
     ("launch",),
     ("clusters",),
-    ("cli", "testing", "clock"),
-    ("certify", "appraise", "arena", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "api", "__main__",
+    ("cli", "testing"),
+    ("certify", "appraise", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "api", "clock", "__main__",
      "export", "rerun", "retry", "watch", "work"),
     ("render",),
 )

@@ -71,15 +71,14 @@ def test_a_package_brings_files_measures_and_figures(place, tmp_path):
         return done.stdout
     path = installed_by_hand(tmp_path / "site")
     python("-m", "attnlab", "+experiment=island", "curiosity=weekly", "seed=0-2", "simulator=planar",
-           "train_episodes=4", "validation_episodes=1", "max_cycles=100", "picture=false", "cluster=serial")
+           "train_episodes=4", "validation_episodes=1", "max_cycles=100", "picture=false")
     page = (place.path / "outputs" / "island" / "report" / "index.html").read_text()
     assert "how far to the east" in page and "The weekly robot gets east" in page
     known = "from attnlab.api import load; print(load('outputs/island').episodes['east_m'].min() > 0)"
     assert python("-c", known) == "True\n"
     assert "A table of the island" in python("-m", "attnlab.audit", "island")
     python("-m", "attnlab", "variants={design: multiverse, size: 2, factors: island}", "simulator=planar", "study=two",
-           "train_episodes=1", "validation_episodes=1", "max_cycles=60", "picture=false", "report=false",
-           "cluster=serial")
+           "train_episodes=1", "validation_episodes=1", "max_cycles=60", "picture=false", "report=false")
     assert len(list(place.path.glob("outputs/two/*/run.json"))) == 2
 
 
