@@ -25,6 +25,14 @@ def write(tmp_path, content) -> str:
     return str(path)
 
 
+@pytest.mark.parametrize(("name", "ids"), [("temporl", ["T1", "T2"]), ("amrl", ["A1", "A2"]), ("timing", ["M1"]),
+                                           ("tacos", ["S1", "S2"])])
+def test_claims_of_other_ways_to_decide_when_to_look(name, ids):
+    claims = load_claims(name)
+    assert list(claims.claims) == ids and claims.rules.least_seeds == 6
+    assert set(claims.roles["treatment"].where) == set(claims.roles["control"].where) == {"learner"}
+
+
 def test_shipped_claims_are_c1_to_c27():
     claims = load_claims("dinocera2014")
     assert list(claims.claims) == [f"C{i}" for i in range(1, 28)]

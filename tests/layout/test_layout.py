@@ -36,8 +36,8 @@ FLOORS = (
     # what knows both
     ("launch",),
     ("clusters",),
-    ("cli", "testing"),
-    ("certify", "appraise", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "api", "clock", "__main__",
+    ("cli", "testing", "clock"),
+    ("certify", "appraise", "arena", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "api", "__main__",
      "export", "rerun", "retry", "watch", "work"),
     ("render",),
 )

@@ -1,0 +1,87 @@
+"""A budget of looks over any learner."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from random import Random
+from typing import Any
+
+from attnlab import registry
+from attnlab.errors import ConfigError
+from attnlab.exploration.base import Exploration
+from attnlab.learners.base import Learner, LearnerContext
+from attnlab.registry import register
+from attnlab.settings import setting
+
+
+@register("learner", "capped")
+class Capped(Learner):
+    """Another learner that may not look more often than a budget allows, ours: the behaviours of a robot share
+    ``looks_per_s``, and what was not used is kept. A period is granted as the other one wants it if, when it has
+    elapsed, no more looks will have been taken than the time since the episode's start allows (each behaviour's first
+    one is free, and looks that others have been granted but not yet taken are not known); otherwise the shortest longer
+    one that keeps to it, or the longest there is. The other learns from what was granted.
+
+    A cap of n behaviours that is below n looks in the longest period cannot be kept; it then looks as rarely as it can.
+    Draws what the other draws.
+    """
+
+    @dataclass
+    class Params:
+        of: Any = setting("q_learning", "the learner: a name, or {name: ..., setting: ...}")
+        looks_per_s: float = setting(4.0, "of all behaviours together", unit="1/s", above=0)
+
+    params: Params
+
+    def __init__(self, params: Params, context: LearnerContext):
+        super().__init__(params, context)
+        name = params.of if isinstance(params.of, str) else str(dict(params.of or {}).get("name"))
+        spec = registry.find("learner", name)
+        if spec is None:
+            raise registry.unknown("learner", name, "learner.of")
+        if spec.cls is Capped or spec.cls.prepare.__func__ is not Learner.prepare.__func__:  # type: ignore[attr-defined]
+            raise ConfigError("learner.of", f"{name} cannot be capped")
+        own = params.of if isinstance(params.of, Mapping) else {}
+        self.inner: Learner = registry.make("learner", {**spec.nodes()[name], **own}, context, "learner.of")
+        self.learns, self.on_policy = self.inner.learns, self.inner.on_policy
+        self.needs_between = self.inner.needs_between
+        self.q, self.visits = self.inner.q, self.inner.visits
+        self._a_cycle = params.looks_per_s * context.reading.dt_s
+        self._rising = sorted(range(self.actions), key=lambda action: context.periods[action])
+        self._begun = False
+        self._now = 0
+        context.shared.setdefault("taken", {})
+
+    def values(self, state: int) -> list[float]:
+        return self.inner.values(state)
+
+    def start(self) -> None:
+        self.inner.start()
+        self._begun, self._now = False, 0
+        self.context.shared["taken"][self.context.behaviour] = 0
+
+    def decide(self, state: int, exploration: Exploration, draw: Random) -> int:
+        c, taken = self.context, self.context.shared["taken"]
+        if self._begun:
+            self._now += c.periods[state // c.bins % len(c.periods)]
+            taken[c.behaviour] = taken.get(c.behaviour, 0) + 1
+        self._begun = True
+        wanted = self.inner.decide(state, exploration, draw)
+        looks = 1
+        for others in taken.values():
+            looks += others
+        for action in self._rising:
+            period = c.periods[action]
+            if period >= c.periods[wanted] and looks <= self._a_cycle * (self._now + period) + 1e-9:
+                return action
+        return self._rising[-1]
+
+    def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
+        self.inner.update(state, action, reward, next_state, next_action, cycles)
+
+    def terminal(self, state: int, action: int, reward: float) -> None:
+        self.inner.terminal(state, action, reward)
+
+    def watched(self, path: Sequence[int], rewards: Sequence[float], ended: bool) -> None:
+        self.inner.watched(path, rewards, ended)
