@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import takewhile
 from typing import Any
 
 from attnlab.claims.files import Claims
@@ -16,24 +17,38 @@ Combinations = dict[str, dict[str, str]]  # name -> settings by dotted name, as 
 def strata(claims: Claims, conditions: Conditions) -> Combinations:
     """Combinations to judge, by name: values of the settings that vary and tell no roles apart.
 
-    A variant whose name follows from the curiosity and the settings of the roles is no combination of its own.
+    Variants that differ in settings of the roles alone are one combination, called by what their names begin with.
     """
     of_roles = {name for role in claims.roles.values() for name in role.where}
     others = [name for name in conditions.settings if name not in of_roles]
-    if "variant" in others and "variant" not in of_roles:
-        rest = [name for name in conditions.settings if name != "variant"]
-        keys = [(key[0], *(value for name, value in zip(conditions.settings, key[1:], strict=True) if name in rest))
-                for key in conditions.keyed]
-        if len(set(keys)) == len(keys) and len(others) == 1:
-            others = []
-    found: Combinations = {}
+    groups: dict[tuple[str, ...], list[dict[str, str]]] = {}
     for stratum in conditions.strata:
         values = dict(zip(conditions.settings, stratum, strict=True))
-        kept = {name: values[name] for name in others}
-        name = conditions.stratum_name(stratum) if len(kept) == len(stratum) else \
-            ", ".join(f"{name}={value}" for name, value in kept.items())
-        found.setdefault(name, kept)
+        groups.setdefault(tuple(values[name] for name in others if name != "variant"), []).append(values)
+    merged = "variant" in others and any(len({of["variant"] for of in group}) > 1 for group in groups.values()) \
+        and _told_without_variant(conditions)
+    kept = [name for name in others if not (merged and name == "variant")]
+    found: Combinations = {}
+    for group in groups.values():
+        for values in group:
+            name = _beginning([of["variant"] for of in group]) if merged else \
+                conditions.stratum_name(tuple(values.values())) if len(kept) == len(values) else \
+                ", ".join(f"{name}={values[name]}" for name in kept)
+            found.setdefault(name, {name: values[name] for name in kept})
     return found
+
+
+def _told_without_variant(conditions: Conditions) -> bool:
+    """Are no two conditions the same but for the variant's name?"""
+    place = 1 + conditions.settings.index("variant")
+    rest = [key[:place] + key[place + 1:] for key in conditions.keyed]
+    return len(set(rest)) == len(rest)
+
+
+def _beginning(names: Sequence[str]) -> str:
+    """The words with which all names begin."""
+    words = zip(*(name.split() for name in names), strict=False)
+    return " ".join(word[0] for word in takewhile(lambda word: len(set(word)) == 1, words))
 
 
 def failed(conditions: Conditions, where: Mapping[str, Any], stratum: Mapping[str, str]) -> set[int]:

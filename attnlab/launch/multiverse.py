@@ -14,7 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from attnlab.config import check_path
 from attnlab.errors import ConfigError, nearest
+from attnlab.groups import GROUPS
 from attnlab.loading import named_file
 from attnlab.reading import Reading
 from attnlab.settings import build
@@ -33,7 +35,7 @@ def load_factors(name: str | Path = DEFAULT) -> Factors:
         raise ConfigError(path.name, f"cannot be read: {cause}") from None
     if not isinstance(content, Mapping) or not content:
         raise ConfigError(path.name, "expected open points by name")
-    known = {f"reading.{field.name}" for field in dataclasses.fields(Reading)}
+    set_by: dict[str, str] = {}
     for point, levels in content.items():
         if not isinstance(levels, Mapping) or len(levels) < 2:
             raise ConfigError(f"{path.name}.{point}", "needs two levels or more")
@@ -41,10 +43,24 @@ def load_factors(name: str | Path = DEFAULT) -> Factors:
             raise ConfigError(f"{path.name}.{point}", "its levels must set the same settings")
         for level, overrides in levels.items():
             for setting in overrides:
-                if setting not in known:
-                    raise ConfigError(f"{path.name}.{point}.{level}", f"no setting is called '{setting}'",
-                                      nearest(setting, known))
+                _check(str(setting), f"{path.name}.{point}.{level}")
+                if set_by.setdefault(str(setting), str(point)) != point:
+                    raise ConfigError(f"{path.name}.{point}", f"sets {setting}, and so does {set_by[setting]}",
+                                      "Two factors that set one setting contradict each other")
     return {str(point): {str(level): dict(of) for level, of in levels.items()} for point, levels in content.items()}
+
+
+def _check(setting: str, where: str) -> None:
+    """Is this a setting of the reading, or another of a run? Raises ConfigError."""
+    known = {f"reading.{field.name}" for field in dataclasses.fields(Reading)}
+    if setting.startswith("reading.") or "." not in setting:
+        if setting not in known and setting not in GROUPS:
+            raise ConfigError(where, f"no setting is called '{setting}'", nearest(setting, known))
+        return
+    try:
+        check_path(setting)
+    except ConfigError as error:
+        raise ConfigError(where, f"no setting is called '{setting}'", error.hint) from None
 
 
 def design(size: int = 64, seed: int = 0, factors: str | Path = DEFAULT) -> list[dict[str, Any]]:
@@ -58,7 +74,8 @@ def design(size: int = 64, seed: int = 0, factors: str | Path = DEFAULT) -> list
         overrides: dict[str, Any] = {}
         for levels, level in zip(points.values(), row, strict=True):
             overrides.update(list(levels.values())[level])
-        build(Reading, {name.partition(".")[2]: value for name, value in overrides.items()}, "reading")
+        build(Reading, {name.removeprefix("reading."): value for name, value in overrides.items()
+                        if name.startswith("reading.")}, "reading")
         readings.append(overrides)
     return readings
 

@@ -16,7 +16,8 @@ def read_variants(node: Any) -> dict[str | None, dict[str, Any]]:
     """Variants by name: setting -> value. A study without any has the one variant None, which changes nothing.
 
     ``{design: multiverse, size: 64, seed: 0, factors: dinocera2014}`` asks
-    :func:`~attnlab.launch.multiverse.design` for them. Raises ConfigError.
+    :func:`~attnlab.launch.multiverse.design` for them; with ``conditions: {name: {setting: value}}`` each reading is
+    run under each of these. Raises ConfigError.
     """
     if not node:
         return {None: {}}
@@ -39,7 +40,7 @@ def read_variants(node: Any) -> dict[str | None, dict[str, Any]]:
 def _design(node: Mapping[str, Any]) -> dict[str | None, dict[str, Any]]:
     if node["design"] not in DESIGNS:
         raise ConfigError("variants.design", f"'{node['design']}' is none", nearest(str(node["design"]), DESIGNS))
-    known = ("design", "size", "seed", "factors")
+    known = ("design", "size", "seed", "factors", "conditions")
     unknown = sorted(str(name) for name in node if name not in known)
     if unknown:
         raise ConfigError(f"variants.{unknown[0]}", "no such setting", nearest(unknown[0], known))
@@ -50,7 +51,21 @@ def _design(node: Mapping[str, Any]) -> dict[str | None, dict[str, Any]]:
     from attnlab.launch.multiverse import DEFAULT, design
     readings = design(size, seed, str(node.get("factors", DEFAULT)))
     width = len(str(len(readings) - 1))
-    return {f"r{i:0{width}d}": dict(reading) for i, reading in enumerate(readings)}
+    named: dict[str | None, dict[str, Any]] = {f"r{i:0{width}d}": dict(reading) for i, reading in enumerate(readings)}
+    conditions = node.get("conditions")
+    if conditions is None:
+        return named
+    if not isinstance(conditions, Mapping) or len(conditions) < 2 or not all(
+            isinstance(of, Mapping) and of for of in conditions.values()):
+        raise ConfigError("variants.conditions", f"expected two {{name: {{setting: value}}}} or more, got "
+                          f"{conditions!r}")
+    for condition, of in conditions.items():
+        for setting in of:
+            if any(setting in reading for reading in readings):
+                raise ConfigError(f"variants.conditions.{condition}.{setting}", "is set by a factor of the design, too",
+                                  f"Leave it out here, or out of {node.get('factors', DEFAULT)}.yaml")
+    return {f"{name} {condition}": {**reading, **of} for name, reading in named.items()
+            for condition, of in conditions.items()}
 
 
 def as_override(value: Any) -> str:

@@ -15,12 +15,14 @@ from attnlab.claims.roles import Combinations, strata
 from attnlab.errors import ConfigError
 from attnlab.figures.base import FigureContext, gallery
 from attnlab.figures.style import drawing
-from attnlab.report import drawn, glance, multiverse, provenance, table5, verdicts
+from attnlab.report import curve, drawn, glance, multiverse, provenance, table5, verdicts
 from attnlab.report.captions import load_captions
 from attnlab.report.page import Section, Shown, nothing_testable, page, table
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study, load
 from attnlab.tables.files import write_bytes
+
+MOST_SETTINGS = 6  # that the first sentence of a page names
 
 
 def build(study_path: str | Path, out: str | Path | None, claims_name: str | None, baselines: str | Path | None,
@@ -50,8 +52,8 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
         tables = _tables(claims, conditions, combinations, target)
         sections = _sections(study, judged, combinations, telling, tables, target)
         if len(judged) >= multiverse.LEAST_READINGS:
-            more, section = _multiverse(multiverse.analyse(combinations, judged), target)
-            shown, sections = more + shown, [section, *sections]
+            more, first_sections = _multiverse(multiverse.analyse(combinations, judged), target)
+            shown, sections = more + shown, [*first_sections, *sections]
     sections.append(provenance.commands(study))
     notes = provenance.notes(study, conditions, claims)
     if not conditions.strata:
@@ -118,24 +120,30 @@ def _sections(study: Study, judged: dict[str, list[Verdict]], combinations: Comb
     return sections
 
 
-def _multiverse(found: multiverse.Multiverse, target: Path) -> tuple[list[Shown], Section]:
-    """The figures and the section of a study of many readings."""
-    write_bytes(target / "effects.csv", multiverse.effects_csv(found))
-    best = max(range(len(found.ids)), key=lambda i: (found.share(i)[0] if found.share(i)[3] else -1.0, -i))
-    said = f"{found.ids[best]} ({found.titles[best]}) holds most often, in {100 * found.share(best)[0]:.0f} % of the " \
-           "readings that can test it."
-    clear = [e for e in found.effects if e.clear]
-    moved = max(clear, key=lambda e: abs(e.difference), default=None)
-    most = "No reading moves a claim clearly." if moved is None else \
-        f"{moved.factor}={moved.level} moves {moved.claim} most, by {100 * moved.difference:+.0f} percent points."
+def _multiverse(found: multiverse.Multiverse, target: Path) -> tuple[list[Shown], list[Section]]:
+    """The figures and the sections of a study of many readings."""
+    for name, csv in (("effects", multiverse.effects_csv), ("curve", multiverse.curve_csv),
+                      ("joint", multiverse.joint_csv)):
+        write_bytes(target / f"{name}.csv", csv(found))
+    paper = "Each open point of the text may be read in several ways; the paper ran one."
     shown = []
-    for key, title, draw, text in (
-            ("multiverse_shares", "In how many readings each claim holds", multiverse.shares, said),
-            ("multiverse_effects", "Which reading moves which claim", multiverse.effects_map, most)):
-        png = drawn.save(draw(found), key, target)
-        shown.append(Shown(key, title, "Each open point of the text may be read in several ways; the paper ran one.",
-                           text, png))
-    return shown, multiverse.section(found)
+    if found.measures:
+        lead = curve.leading(found)
+        told = [f"{m.title}: {found.statement(i)}" for i, m in enumerate(found.measures)
+                if found.statement(i) not in ("not told from chance", "mixed")]
+        title, factor = found.measures[lead].title, found.mover(lead)
+        shown = [Shown("multiverse_curves", "Specification curves", paper, "; ".join(told[:12]) + "." if told else
+                       "No measure is told from chance.", drawn.save(curve.curves(found), "multiverse_curves", target),
+                       how="A dot a reading with its interval: blue as claimed, orange the opposite, grey not clear."),
+                 Shown("multiverse_dashboard", f"The curve of {title} and what each reading has", paper,
+                       f"{factor[0]} holds {100 * factor[1]:.0f} % of the variance of its effects over the readings.",
+                       drawn.save(curve.dashboard(found, lead), "multiverse_dashboard", target))]
+    best = max(range(len(found.ids)), key=lambda i: (found.share(i)[0] if found.share(i)[1] else -1.0, -i))
+    most = f"{found.ids[best]} ({found.titles[best]}) holds most often, in {100 * found.share(best)[0]:.0f} % of the " \
+           "readings that can test it."
+    shown.append(Shown("multiverse_shares", "In how many readings each claim holds", paper, most,
+                       drawn.save(curve.shares(found), "multiverse_shares", target)))
+    return shown, curve.sections(found)
 
 
 def _escape(text: str) -> str:
@@ -163,7 +171,9 @@ def _lead(study: Study, conditions: Conditions) -> str:
     names = ", ".join(conditions.name(c) + (f" (curiosity={c})" if conditions.name(c) != c else "")
                       for c in conditions.curiosities)
     parts = [f"{runs} complete run{'s' * (runs > 1)} of {names}", f"seed{'s' * (len(seeds) > 1)} {_span(seeds)}"]
-    for setting in conditions.settings:
+    if len(conditions.settings) > MOST_SETTINGS:
+        parts.append(f"{len(conditions.strata)} combinations of {len(conditions.settings)} settings")
+    for setting in conditions.settings if len(conditions.settings) <= MOST_SETTINGS else ():
         values = list(dict.fromkeys(st[conditions.settings.index(setting)] for st in conditions.strata))
         parts.append(f"{setting} in {', '.join(values[:8])}" + (" …" if len(values) > 8 else ""))
 

@@ -1,4 +1,4 @@
-"""What the paper's ambiguities do to its claims: a study with many readings, judged reading by reading."""
+"""What the paper's ambiguities do to its claims: a study with many readings, judged reading by reading and together."""
 
 from __future__ import annotations
 
@@ -6,70 +6,145 @@ import csv
 import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from attnlab.claims.findings import Finding
-from attnlab.claims.judge import Verdict
+from attnlab.claims.judge import PartVerdict, Verdict
+from attnlab.claims.parts import PAIRED
 from attnlab.claims.roles import Combinations
-from attnlab.figures.style import GREY, WIDTH_IN, cut
-from attnlab.report.page import Section, table
-from attnlab.stats import bootstrap_interval
+from attnlab.stats.specification import Joint, joint_test, standardised, variance_shares
 from attnlab.tables.flat import text
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+Floats = npt.NDArray[np.float64]
 LEAST_READINGS = 8  # fewer combinations are shown as a plain matrix
+LEAST_SEEDS = 2  # that every reading must share for a joint test
+ROBUST = 0.75  # share of the readings on one side that makes a statement robust, if the joint test is clear
+HANGS = 0.5  # share of the variance that lies with one factor if the statement hangs on it
 
 
-class Effect(NamedTuple):
-    """Share of readings with this level in which a claim holds, less the share with the default, and its interval."""
+class Moved(NamedTuple):
+    """Share of the readings with this level in which a claim holds, less the share with the default level."""
     claim: str
     factor: str
     level: str
     default: str
     difference: float
-    low: float
-    high: float
 
-    @property
-    def clear(self) -> bool:
-        return self.low > 0 or self.high < 0
+
+class Signed(NamedTuple):
+    """A comparison of two roles as a measure that is above 0 where it is as claimed."""
+    claim: str
+    part: int
+    title: str
+    sign: float
 
 
 @dataclass
 class Multiverse:
-    """``holds`` (claims, readings): 1, 0, or nan where untestable. ``levels``: factor -> level by reading."""
+    """``holds`` (claims, readings): 1, 0, or nan where untestable. ``levels``: factor -> level by reading.
+
+    ``differences`` (readings, measures, seeds) of ``measures``, signed as claimed; ``effects``, ``low``, ``high``
+    (readings, measures): standardised, with t intervals; ``joint``: None where the readings share too few seeds.
+    ``shares``: of each measure the variance of its effects by factor.
+    """
     ids: list[str]
     titles: list[str]
     names: list[str]
-    holds: np.ndarray
-    reproduced: np.ndarray
+    holds: Floats
+    reproduced: npt.NDArray[np.bool_]
     levels: dict[str, list[str]]
     defaults: dict[str, str]
-    effects: list[Effect]
+    moved: list[Moved]
+    measures: list[Signed]
+    differences: Floats
+    effects: Floats
+    low: Floats
+    high: Floats
+    joint: Joint | None
+    shares: list[dict[str, float]]
 
-    def share(self, row: int) -> tuple[float, float, float, int]:
-        """(share of testable readings in which claim ``row`` holds, low, high, testable readings)."""
+    def share(self, row: int) -> tuple[float, int]:
+        """(share of the testable readings in which claim ``row`` holds, how many can test it)."""
         seen = self.holds[row][~np.isnan(self.holds[row])]
-        value = bootstrap_interval(seen)
-        return value.value, value.low, value.high, len(seen)
+        return (float(seen.mean()) if seen.size else float("nan")), int(seen.size)
+
+    def statement(self, measure: int) -> str:
+        """What kind of statement a measure makes: robust, hangs on a factor, or not told from chance."""
+        effects = self.effects[:, measure]
+        side = np.sign(np.median(effects))
+        agree = float((np.sign(effects) == side).mean())
+        factor, share = self.mover(measure)
+        if share >= HANGS:
+            return f"hangs on {factor}"
+        if self.joint is not None and self.joint.p_family[measure] <= 0.05 and agree >= ROBUST:
+            return "as claimed, in most readings" if side > 0 else "the opposite, in most readings"
+        return "not told from chance" if self.joint is None or self.joint.p_family[measure] > 0.05 else "mixed"
+
+    def mover(self, measure: int) -> tuple[str, float]:
+        """The factor with the largest share of a measure's variance over readings."""
+        named = {name: share for name, share in self.shares[measure].items() if name != "other"}
+        return max(named.items(), key=lambda item: item[1], default=("nothing", 0.0))
 
 
 def analyse(combinations: Combinations, judged: Mapping[str, Sequence[Verdict]]) -> Multiverse:
-    """Shares and main effects. Settings that always change together are one factor."""
+    """Shares of claims, signed effects and their joint test. Settings that always change together are one factor."""
     verdicts = list(judged.values())
     first = verdicts[0]
     holds = np.array([[np.nan if of[i].verdict is Finding.UNTESTABLE else float(of[i].holds) for of in verdicts]
                       for i in range(len(first))])
     reproduced = np.array([[of[i].verdict is Finding.REPRODUCED for of in verdicts] for i in range(len(first))])
     levels, defaults = _factors(list(combinations.values()))
-    effects = [effect for i, verdict in enumerate(first) for factor, of in levels.items()
-               for effect in _effects(verdict.id, factor, np.array(of), defaults[factor], holds[i])]
+    moved = [found for i, verdict in enumerate(first) for factor, of in levels.items()
+             for found in _moved(verdict.id, factor, np.array(of), defaults[factor], holds[i])]
+    measures = _signed(first)
+    differences = _differences(verdicts, measures)
+    there = [m for m in range(len(measures)) if not np.isnan(differences[:, m]).all()]
+    measures, differences = [measures[m] for m in there], differences[:, there]
+    effects = standardised(differences)
+    low, high = _ends(differences, effects)
+    joint = joint_test(differences) if measures and differences.shape[-1] >= LEAST_SEEDS else None
     return Multiverse([v.id for v in first], [v.claim.title for v in first], list(judged), holds, reproduced, levels,
-                      defaults, effects)
+                      defaults, moved, measures, differences, effects, low, high, joint,
+                      [variance_shares(column, levels) for column in effects.T])
+
+
+def _signed(verdicts: Sequence[Verdict]) -> list[Signed]:
+    """Every comparison of two roles that has a side, each once."""
+    found: dict[tuple[str, ...], Signed] = {}
+    for verdict in verdicts:
+        for i, part in enumerate(of.part for of in verdict.parts):
+            key = (repr(sorted(part.node.items(), key=str)), part.test, part.role, part.against)
+            if part.test in PAIRED and (part.direction != "about" or part.test == "not_lower") and key not in found:
+                sign = -1.0 if part.direction in ("lower", "at_most") else 1.0
+                told = [name if value is True else str(value) for name, value in part.node.items()
+                        if value is not False and not isinstance(value, list)]
+                found[key] = Signed(verdict.id, i, f"{verdict.id} {', '.join(told).replace('_', ' ')}", sign)
+    return list(found.values())
+
+
+def _differences(verdicts: Sequence[Sequence[Verdict]], measures: Sequence[Signed]) -> Floats:
+    """(readings, measures, seeds), over all seeds that any reading has; nan where it has none."""
+    by_id = [{verdict.id: verdict.parts for verdict in of} for of in verdicts]
+    parts: list[list[PartVerdict]] = [[of[m.claim][m.part] for m in measures] for of in by_id]
+    seeds = sorted({seed for row in parts for part in row for seed in part.sample})
+    found = np.full((len(verdicts), len(measures), len(seeds)), np.nan)
+    place = {seed: i for i, seed in enumerate(seeds)}
+    for r, row in enumerate(parts):
+        for m, part in enumerate(row):
+            for seed, value in part.sample.items():
+                found[r, m, place[seed]] = measures[m].sign * value
+    return found
+
+
+def _ends(differences: Floats, effects: Floats) -> tuple[Floats, Floats]:
+    """The t interval of each mean, in standard deviations: effect -+ t / sqrt(n)."""
+    from scipy.stats import t as student
+    count = (~np.isnan(differences)).sum(axis=-1)
+    reach = np.where(count > 1, student.ppf(0.975, np.maximum(count - 1, 1)) / np.sqrt(np.maximum(count, 1)), np.nan)
+    return effects - reach, effects + reach
 
 
 def _factors(readings: Sequence[Mapping[str, str]]) -> tuple[dict[str, list[str]], dict[str, str]]:
@@ -95,105 +170,54 @@ def _factors(readings: Sequence[Mapping[str, str]]) -> tuple[dict[str, list[str]
     return levels, defaults
 
 
-def _effects(claim: str, factor: str, of: np.ndarray, default: str, holds: np.ndarray) -> list[Effect]:
-    """Difference of shares between each level and the default, with a seeded bootstrap over readings."""
+def _moved(claim: str, factor: str, of: npt.NDArray[np.str_], default: str, holds: Floats) -> list[Moved]:
+    """Differences of shares between each level and the default: descriptions of a fixed design, without intervals."""
     known = ~np.isnan(holds)
-    rng = np.random.default_rng(2014)
     base = holds[known & (of == default)]
     found = []
     for level in dict.fromkeys(of.tolist()):
-        if level == default:
-            continue
         here = holds[known & (of == level)]
-        if len(base) < 2 or len(here) < 2:
-            found.append(Effect(claim, factor, level, default, np.nan, np.nan, np.nan))
-            continue
-        drawn = rng.choice(here, (1000, len(here))).mean(axis=1) - rng.choice(base, (1000, len(base))).mean(axis=1)
-        low, high = np.quantile(drawn, [0.025, 0.975])
-        found.append(Effect(claim, factor, level, default, float(here.mean() - base.mean()), float(low), float(high)))
+        if level != default and len(base) and len(here):
+            found.append(Moved(claim, factor, level, default, float(here.mean() - base.mean())))
     return found
-
-
-def shares(found: Multiverse) -> Figure:
-    """For each claim the share of readings in which it holds, with 95 % intervals, and in which it is reproduced."""
-    import matplotlib.pyplot as plt
-    n = len(found.ids)
-    figure, ax = plt.subplots(figsize=(WIDTH_IN, 1.1 + 0.27 * n))
-    for row in range(n):
-        value, low, high, testable = found.share(row)
-        if not testable:
-            ax.text(0, row, " untestable in every reading", va="center", color=GREY, fontsize=8.5)
-            continue
-        ax.barh(row, 100 * value, color="#56b4e9", height=0.68,
-                label=None if ax.patches else "claimed direction clear")
-        exact = 100 * found.reproduced[row].sum() / testable
-        ax.plot(exact, row, "D", color="#00674d", ms=5, label=None if ax.lines else "number met too")
-        if np.isfinite(low):
-            ax.plot([100 * low, 100 * high], [row, row], color="#333333", lw=1.3)
-    ax.set_yticks(range(n), [cut(f"{i}  {t}", 62) for i, t in zip(found.ids, found.titles, strict=True)])
-    ax.invert_yaxis()
-    ax.set_xlim(0, 103)
-    ax.set_xlabel(f"% of the readings that can test the claim ({len(found.names)} at most)")
-    ax.grid(axis="y", visible=False)
-    if ax.get_legend_handles_labels()[0]:
-        figure.legend(loc="outside upper right", ncol=2)
-    return figure
-
-
-def effects_map(found: Multiverse) -> Figure:
-    """Main effects: by how many percent points a level moves a claim's share; dots where the interval excludes 0."""
-    import matplotlib.pyplot as plt
-    import seaborn as sns
-    columns = list(dict.fromkeys((e.factor, e.level) for e in found.effects))
-    grid = np.full((len(found.ids), len(columns)), np.nan)
-    marks = np.full(grid.shape, "", dtype=object)
-    for e in found.effects:
-        place = found.ids.index(e.claim), columns.index((e.factor, e.level))
-        grid[place] = 100 * e.difference
-        marks[place] = "•" if e.clear else ""
-    figure, ax = plt.subplots(figsize=(WIDTH_IN + 0.8, 2.6 + 0.24 * len(found.ids)))
-    sns.heatmap(grid, ax=ax, cmap="vlag", center=0, vmin=-100, vmax=100, annot=marks, fmt="", linewidths=0.4,
-                cbar_kws={"label": "percent points", "shrink": 0.6}, annot_kws={"fontsize": 8})
-    ax.set_yticks(np.arange(len(found.ids)) + 0.5, found.ids, rotation=0, fontsize=8)
-    labels = [cut(f"{f.split(' + ')[0]} = {v.split(' + ')[0]}", 34) for f, v in columns]
-    ax.set_xticks(np.arange(len(columns)) + 0.5, labels, rotation=90, fontsize=8)
-    return figure
-
-
-def section(found: Multiverse) -> Section:
-    """Shares, strongest readings and best readings as tables."""
-    rows = []
-    for i, key in enumerate(found.ids):
-        value, low, high, testable = found.share(i)
-        mine = sorted((e for e in found.effects if e.claim == key and np.isfinite(e.difference)),
-                      key=lambda e: -abs(e.difference))
-        top = [f"{e.factor.split(' + ')[0]}={e.level.split(' + ')[0]} {100 * e.difference:+.0f} "
-               f"[{100 * e.low:.0f}, {100 * e.high:.0f}]" for e in mine if e.clear][:2]
-        rows.append([f"{key} {found.titles[i]}", f"{100 * value:.0f} %" if testable else "-",
-                     f"{100 * low:.0f} to {100 * high:.0f}" if testable > 1 else "-", str(testable),
-                     "; ".join(top) or "none is clear"])
-    best = sorted(range(len(found.names)), key=lambda j: (-np.nansum(found.holds[:, j]), j))[:5]
-    readings = [[found.names[j], f"{np.nansum(found.holds[:, j]):.0f}", f"{found.reproduced[:, j].sum()}",
-                 ", ".join(f"{f.split(' + ')[0]}={of[j].split(' + ')[0]}" for f, of in found.levels.items()
-                           if of[j] != found.defaults[f]) or "nothing"] for j in best]
-    html = (f"<p>{len(found.names)} readings of the paper's open points were run. A claim holds in a reading if its "
-            "verdict is <i>reproduced</i> or one of the two <i>direction</i> ones.</p>"
-            + table(("claim", "holds in", "95 % interval", "readings", "moved most by (percent points)"), rows,
-                    (1, 2, 3))
-            + "<h3>Readings that satisfy most claims</h3>"
-            + table(("reading", "claims that hold", "reproduced", "differs from the default in"), readings, (1, 2))
-            + f"<p class=small>All {len(found.names)} readings: combinations.csv; all effects: effects.csv. An effect "
-            "is the share with a level less the share with the default level; intervals by bootstrap over readings, "
-            f"not corrected for their number ({len(found.effects)}): about one in twenty is clear by chance.</p>")
-    return Section("multiverse", "The multiverse: claims under every reading", html)
 
 
 def effects_csv(found: Multiverse) -> bytes:
     sink = io.StringIO()
     writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["claim", "factor", "level", "default", "difference_of_shares", "low", "high"])
-    for e in found.effects:
-        writer.writerow([e.claim, e.factor, e.level, e.default, *(f"{v:.4f}" for v in e[4:7])])
+    writer.writerow(["claim", "factor", "level", "default", "difference_of_shares"])
+    for e in found.moved:
+        writer.writerow([*e[:4], f"{e.difference:.4f}"])
+    return sink.getvalue().encode()
+
+
+def curve_csv(found: Multiverse) -> bytes:
+    """A row a measure and reading: the signed standardised effect with its interval, and its family-wise p."""
+    sink = io.StringIO()
+    writer = csv.writer(sink, lineterminator="\n")
+    writer.writerow(["measure", "claim", "reading", "effect_d", "low", "high", "p_of_readings", *found.levels])
+    for m, measure in enumerate(found.measures):
+        for r in np.argsort(found.effects[:, m], kind="stable"):
+            p = found.joint.of_readings[r, m] if found.joint else float("nan")
+            numbers = (found.effects[r, m], found.low[r, m], found.high[r, m], p)
+            writer.writerow([measure.title, measure.claim, found.names[r], *(f"{x:.5g}" for x in numbers),
+                             *(of[r] for of in found.levels.values())])
+    return sink.getvalue().encode()
+
+
+def joint_csv(found: Multiverse) -> bytes:
+    """A row a measure: its median effect, clear readings, joint p, and the variance of its effects by factor."""
+    sink = io.StringIO()
+    writer = csv.writer(sink, lineterminator="\n")
+    writer.writerow(["measure", "claim", "readings", "seeds", "median_d", "clear_as_claimed", "clear_opposite",
+                     "p_joint", "p_family", "patterns", "statement", "moved_most_by", "its_share"])
+    for m, measure in enumerate(found.measures):
+        j = found.joint
+        numbers = [np.nan] * 5 if j is None else [j.median[m], j.clear[m], j.opposite[m], j.p[m], j.p_family[m]]
+        mover, share = found.mover(m)
+        writer.writerow([measure.title, measure.claim, len(found.names), found.differences.shape[-1],
+                         *(f"{x:.5g}" for x in numbers), j.patterns if j else 0, found.statement(m), mover,
+                         f"{share:.4f}"])
     return sink.getvalue().encode()
 
 

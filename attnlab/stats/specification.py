@@ -1,8 +1,8 @@
 """Inference over a specification curve: one study under many readings of what is open (Simonsohn et al. 2020).
 
-The readings are a fixed design, so there is no interval over them. What is random are the seeds, and a seed is the same
-robot, world and start poses in every reading. If nothing sets two conditions apart they may change places within a seed,
-in all readings at once: that keeps how the readings hang together, and is the joint test.
+The readings are a fixed design, so there is no interval over them. Random are the seeds, and a seed is the same robot,
+world and start poses in every reading. If nothing sets two conditions apart they may change places within a seed, in
+all readings at once: that keeps how the readings hang together, and is the joint test.
 """
 
 from __future__ import annotations
@@ -33,10 +33,19 @@ class Joint:
 
 
 def standardised(differences: Floats) -> Floats:
-    """Mean over standard deviation over the last axis (seeds), nan left out; 0 where nothing differs."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        found = np.nanmean(differences, axis=-1) / np.nanstd(differences, axis=-1, ddof=1)
-    return np.where(np.isfinite(found), found, 0.0)
+    """Mean over standard deviation over the last axis (seeds), nan left out; 0 where nothing differs or is there."""
+    there = ~np.isnan(differences)
+    filled = np.where(there, differences, 0.0)
+    return _standard(filled.sum(axis=-1), (filled ** 2).sum(axis=-1), there.sum(axis=-1))
+
+
+def _standard(total: Floats, squares: Floats, count: npt.NDArray[np.int64]) -> Floats:
+    """The same from sums, sums of squares and numbers of values, of any shape."""
+    mean = total / np.maximum(count, 1)
+    spread = np.sqrt(np.maximum(squares - count * mean ** 2, 0.0) / np.maximum(count - 1, 1))
+    found: Floats = np.divide(mean, spread, out=np.zeros(np.broadcast(mean, spread).shape),
+                              where=(spread > 1e-12 * np.abs(mean)) & (count > 1))
+    return found
 
 
 def joint_test(differences: npt.ArrayLike, confidence: float = 0.95, draws: int = EXACT, seed: int = 0) -> Joint:
@@ -48,7 +57,7 @@ def joint_test(differences: npt.ArrayLike, confidence: float = 0.95, draws: int 
     """
     from scipy.stats import t as student
     x = np.asarray(differences, float)
-    readings, measures, n = x.shape
+    measures, n = x.shape[1:]
     there = ~np.isnan(x)
     count = there.sum(axis=-1)
     filled = np.where(there, x, 0.0)
@@ -57,11 +66,7 @@ def joint_test(differences: npt.ArrayLike, confidence: float = 0.95, draws: int 
 
     def effects(of: Floats) -> Floats:
         """Standardised effects of a block of patterns, shape (patterns, readings, measures)."""
-        mean = np.einsum("ps,rms->prm", of, filled) / np.maximum(count, 1)
-        spread = np.sqrt(np.maximum(squares - count * mean ** 2, 0.0) / np.maximum(count - 1, 1))
-        with np.errstate(invalid="ignore", divide="ignore"):
-            d = mean / spread
-        return np.where(np.isfinite(d) & (count > 1), d, 0.0)
+        return _standard(np.einsum("ps,rms->prm", of, filled), squares, count)
     medians, biggest = np.empty((len(signs), measures)), np.empty((len(signs), measures))
     for first in range(0, len(signs), 128):
         d = effects(signs[first:first + 128])
@@ -81,7 +86,7 @@ def joint_test(differences: npt.ArrayLike, confidence: float = 0.95, draws: int 
 
 def _patterns(n: int, draws: int, seed: int) -> tuple[Floats, bool]:
     if 2 ** n <= draws:
-        return 1.0 - 2.0 * ((np.arange(2 ** n)[:, None] >> np.arange(n)) & 1), True
+        return (1 - 2 * ((np.arange(2 ** n)[:, None] >> np.arange(n)) & 1)).astype(np.float64), True
     drawn = np.random.default_rng([seed, n]).choice([-1.0, 1.0], (draws, n))
     drawn[0] = 1.0
     return drawn, False

@@ -8,22 +8,27 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+import attnlab
 from attnlab.claims.files import load_claims
 from attnlab.claims.judge import judge
 from attnlab.claims.roles import strata
 from attnlab.errors import ConfigError
 from attnlab.launch.multiverse import balanced, design, imbalance, load_factors
+from attnlab.launch.variants import read_variants
 from attnlab.reading import Reading
+from attnlab.report import curve, multiverse
 from attnlab.results import load
 from attnlab.results.conditions import Conditions
-from tests.report.small_study import write_run
+from attnlab.tables.flat import dig
+from tests.report.small_study import write_run, write_study
 
 
 def test_64_readings_are_valid_and_balanced():
     readings, factors = design(64, seed=0), load_factors()
     assert len(readings) == 64 and len(factors) >= 12
     for overrides in readings:
-        Reading(**{name.partition(".")[2]: value for name, value in overrides.items()})
+        Reading(**{name.removeprefix("reading."): value for name, value in overrides.items()
+                   if name.startswith("reading.")})
     for levels in factors.values():
         names = next(iter(levels.values()))
         counts = Counter(tuple(reading[name] for name in names) for reading in readings)
@@ -43,9 +48,11 @@ def test_pairs_are_evener_than_by_chance():
 
 
 def test_first_level_is_the_default_reading():
+    config = attnlab.compose()
     for levels in load_factors().values():
         for name, value in next(iter(levels.values())).items():
-            assert getattr(Reading(), name.partition(".")[2]) == value
+            default = dig(config, name)
+            assert (default["name"] if isinstance(default, dict) else default) == value
 
 
 @pytest.mark.parametrize(("text", "words"), [
@@ -53,6 +60,8 @@ def test_first_level_is_the_default_reading():
     ("a: {x: {reading.krash: contact}, y: {reading.krash: contact}}", "reading.crash"),
     ("a: {x: {reading.crash: contact}, y: {reading.q_update: smdp}}", "same settings"),
     ("a: {x: {reading.crash: contact}, y: {reading.crash: sometimes}}", "not one of its values"),
+    ("a: {x: {reading.need_k: 1}, y: {reading.need_k: 2}}\nb: {x: {reading.need_k: 1}, y: {reading.need_k: 3}}",
+     "b: sets reading.need_k, and so does a"),
 ])
 def test_bad_factors(tmp_path, text, words):
     path = tmp_path / "points.yaml"
@@ -61,9 +70,33 @@ def test_bad_factors(tmp_path, text, words):
         design(4, factors=path)
 
 
-def test_an_effect_that_was_put_in_is_found(tmp_path):
-    from attnlab.report import multiverse
-    study = tmp_path / "study"
+def test_readings_under_several_conditions():
+    conditions = {"cr": {"curiosity": "litman"}, "ncr": {"curiosity": "none", "reading.non_curious": "plain"}}
+    found = read_variants({"design": "multiverse", "size": 4, "conditions": conditions})
+    assert list(found)[:3] == ["r0 cr", "r0 ncr", "r1 cr"] and len(found) == 8
+    assert found["r2 ncr"] == {**design(4)[2], **conditions["ncr"]}
+    with pytest.raises(ConfigError, match=r"conditions.cr.reading.crash: is set by a factor of the design, too"):
+        read_variants({"design": "multiverse", "size": 4, "conditions": {
+            "cr": {"reading.crash": "contact"}, "ncr": {"curiosity": "none"}}})
+    with pytest.raises(ConfigError, match="expected two"):
+        read_variants({"design": "multiverse", "size": 4, "conditions": {"cr": {}}})
+
+
+def test_conditions_of_a_reading_are_one_combination(tmp_path):
+    """Variants that differ in settings of the roles alone: named by what they share."""
+    for reading, k in (("r0", 1), ("r1", 2)):
+        for name, curiosity, states in (("cr", "litman", "plain"), ("plain", "none", "plain"),
+                                        ("same", "none", "same_states")):
+            write_study(tmp_path / "s", 1, (curiosity,), swept={
+                "variant": f"{reading} {name}", "reading.need_k": k, "reading.non_curious": states})
+    found = strata(load_claims("dinocera2014"), Conditions(load(tmp_path / "s")))
+    assert found == {"r0": {"reading.need_k": "1"}, "r1": {"reading.need_k": "2"}}
+
+
+@pytest.fixture(scope="module")
+def twelve(tmp_path_factory):
+    """Twelve readings; CR is safer by 0.3 with crash=safety_distance and less safe by 0.3 with contact."""
+    study = tmp_path_factory.mktemp("twelve") / "study"
     for i in range(12):
         swept = {"reading.crash": ("contact", "safety_distance")[i % 2], "reading.need_k": (1, 2, 3)[i % 3],
                  "reading.energy_start": (4600, 4500)[i // 6], "reading.energy_max": (4600, 6000)[i // 6]}
@@ -75,16 +108,41 @@ def test_an_effect_that_was_put_in_is_found(tmp_path):
     claims.claims = {key: claims.claims[key] for key in ("C1", "C18")}
     combinations = strata(claims, conditions)
     judged = {name: judge(claims, conditions, settings) for name, settings in combinations.items()}
-    found = multiverse.analyse(combinations, judged)
+    return combinations, judged, multiverse.analyse(combinations, judged)
+
+
+def test_an_effect_that_was_put_in_is_found(twelve):
+    combinations, judged, found = twelve
     assert len(found.names) == 12
     assert set(found.levels) == {"crash", "need_k", "energy_start + energy_max"}
-    effects = {(e.factor, e.level): e for e in found.effects if e.claim == "C18"}
-    moved = effects["crash", "safety_distance"]
-    assert moved.difference == 1.0 and moved.clear and moved.default == "contact"
-    assert not effects["need_k", "2"].clear
-    row = found.ids.index("C18")
-    assert found.share(row)[0] == 0.5 and found.share(row)[3] == 12
-    assert found.share(found.ids.index("C1"))[3] == 0
-    html = multiverse.section(found).html
-    assert "crash=safety_distance +100 [100, 100]" in html
+    moved = {(e.factor, e.level): e for e in found.moved if e.claim == "C18"}
+    put_in = moved["crash", "safety_distance"]
+    assert put_in.difference == 1.0 and put_in.default == "contact"
+    assert moved["need_k", "2"].difference == 0.0
+    assert found.share(found.ids.index("C18")) == (0.5, 12)
+    assert found.share(found.ids.index("C1"))[1] == 0
+    statements, claims = curve.sections(found)
+    assert "crash=safety_distance +100" in claims.html
+    assert "hangs on crash" in statements.html and "all 64 exchanges of 6 seeds" in statements.html
     assert len(multiverse.combinations_csv(combinations, judged).decode().splitlines()) == 13
+
+
+def test_signed_effects_and_their_joint_test(twelve):
+    found = twelve[2]
+    safety = next(m for m, of in enumerate(found.measures) if of.claim == "C18")
+    assert found.differences.shape == (12, 1, 6)  # C1 has no values in so few episodes
+    # half of the readings say so clearly, half the opposite: the median is between, and the curve says nothing together
+    assert found.joint.clear[safety] == 6 and found.joint.opposite[safety] == 6
+    assert found.mover(safety) == ("crash", pytest.approx(1.0, abs=0.1))
+    assert (found.low[:, safety] < found.effects[:, safety]).all()
+    rows = multiverse.curve_csv(found).decode().splitlines()
+    assert rows[0].startswith("measure,claim,reading,effect_d") and len(rows) == 1 + 12
+    assert multiverse.joint_csv(found).decode().count("\n") == 2
+
+
+def test_its_figures_are_drawn(twelve):
+    from attnlab.figures.style import drawing
+    with drawing():
+        for figure in (curve.curves(twelve[2]), curve.dashboard(twelve[2], curve.leading(twelve[2])),
+                       curve.shares(twelve[2])):
+            assert figure.axes
