@@ -2,6 +2,7 @@
 
     python -m attnlab.arena --log FILE                          every way on a log, in blocks
     python -m attnlab.arena --worlds paper,open --seeds 10      every way in worlds, as a study that can be resumed
+    python -m attnlab.arena --study outputs/STUDY               the same of a study that is there
     python -m attnlab.arena --log FILE --ways q_learning,mine   some ways, one's own among them
     python -m attnlab.arena --log FILE --carry RUN              and a clock that was learned in simulation
     python -m attnlab.arena --log FILE --add THEIRS.jsonl       and results of others
@@ -54,6 +55,7 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--log", type=Path, action="append", default=[], help="a log of a real robot; may be repeated")
     parser.add_argument("--set", action="append", default=[], dest="settings", metavar="NAME=VALUE", help="of the logs")
     parser.add_argument("--worlds", default="", help="worlds, with commas between")
+    parser.add_argument("--study", type=Path, help="a study that is there: learners in worlds")
     parser.add_argument("--seeds", type=int, default=6, help="of every way")
     parser.add_argument("--price", type=float, default=0.5, help="of a look: in wrong cycles, or in lost survival")
     parser.add_argument("--onset", type=float, default=0.6, help="nearer than this is near, on logs, in m")
@@ -83,6 +85,8 @@ def main(argv: Sequence[str]) -> int:
             rows += carried_rows(drive, run, task, told)
         curves[drive.name] = {f"block {i}": curve for i, curve in enumerate(fixed_curve(drive, task))}
         strips[drive.name] = strip(drive, drive.blocks()[1][0], task, deciders(drive, names, task, given.epochs))
+    if given.study:
+        rows += world_rows(given.study, {**told, "study": given.study.name})
     if given.worlds:
         from attnlab.cli.calls import swept
         more = [*(() if any(o.startswith("simulator=") for o in given.overrides) else ("simulator=planar",)),
@@ -103,12 +107,14 @@ def main(argv: Sequence[str]) -> int:
 
 def checked(given: argparse.Namespace) -> None:
     """Raise ConfigError for what cannot be, before anything runs."""
-    if not given.log and not given.worlds and not given.add:
+    if not given.log and not given.worlds and not given.add and not given.study:
         raise ConfigError("--log", "no place to compete in was named", "--log FILE, or --worlds paper,open")
     for name, low, high in (("seeds", 1, 10_000), ("epochs", 1, 100_000), ("price", 0.0, 1e6), ("onset", 0.05, 1.0)):
         value = getattr(given, name)
         if not low <= value <= high:
             raise ConfigError(f"--{name}", f"is {value}, must be from {low} to {high:g}")
+    if given.study and not given.study.is_dir():
+        raise ConfigError("--study", f"there is no folder {given.study}")
     if given.carry and not given.log:
         raise ConfigError("--carry", "is for logs", "--log FILE")
     if given.overrides and not given.worlds:

@@ -205,7 +205,7 @@ def test_the_command_makes_a_page_that_repeats_itself(tmp_path, monkeypatch, cap
     (["--worlds", "paper", "--carry", "x"], "--carry: is for logs"),
     (["--log", "none.csv", "--price", "-1"], "--price: is -1.0"),
     (["--log", "none.csv", "--ways", "x"], "no learner is"),
-    (["--add", "none.jsonl"], "there is no file none.jsonl"),
+    (["--add", "none.jsonl"], "there is no file none.jsonl"), (["--study", "none"], "there is no folder none"),
     (["--log", "none.csv", "train_episodes=3"], "train_episodes=3: is for the study in worlds"),
     (["--worlds", "paper", "--price", "nan"], "--price: is nan")])
 def test_what_cannot_be_is_said_before_anything_runs(arguments, problem, tmp_path, monkeypatch):
