@@ -59,7 +59,8 @@ function plot(parent, place, rows) {
       `M${x(row.looks[0] - row.looks[1])} ${cy}H${x(row.looks[0] + row.looks[1])}` }, SVG);
     const dot = make(svg, "circle", undefined, { cx, cy, r: 4, class: row.front ? "front" : "dot" }, SVG);
     make(dot, "title", row.way, {}, SVG);
-    make(svg, "text", row.way, { x: cx + 6, y: cy - 4 }, SVG);
+    make(svg, "text", row.way, row.looks[0] > 0.85 ? { x: cx - 6, y: cy - 4, "text-anchor": "end" }
+      : { x: cx + 6, y: cy - 4 }, SVG);
   }
 }
 

@@ -63,7 +63,7 @@ def plain(places: Mapping[str, Sequence[Standing]], price: float) -> str:
     """The same in Markdown: one screen of words, then a table a place."""
     lines = ["# The arena of attention", "", *(f"- {words(name, found, price)}" for name, found in places.items())]
     for name, found in places.items():
-        lines += ["", f"## {name}", "", "| way | looks in 100 cycles | harm in 100 cycles | saved against a fixed "
+        lines += ["", f"## {name}", "", "| way | looks in 100 cycles | harm, % | saved against a fixed "
                   "clock of equal looks | | on the front |", "| --- | --- | --- | --- | --- | --- |"]
         for s in found:
             saved = "" if s.saved is None else f"{100 * s.saved[0]:+.1f} ± {100 * s.saved[1]:.1f}"

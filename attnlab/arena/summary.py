@@ -110,7 +110,7 @@ def words(place: str, found: Sequence[Standing], price: float) -> str:
     better = [s.way for s in compared if s.verdict == "better"]
     worse = [s.way for s in compared if s.verdict == "worse"]
     text = (f"{place}: at a price of {price:g} a look the best score is {best.way}'s, with {100 * best.looks[0]:.0f} "
-            f"looks and {100 * best.harm[0]:.1f} harm in 100 cycles. ")
+            f"looks in 100 cycles and a harm of {100 * best.harm[0]:.1f} %. ")
     if not compared:
         return text + "Too few seeds or blocks to say who beats a fixed clock."
     return text + (f"Of {len(compared)} ways that can be held against fixed clocks of equal looks, {len(better)} are "
