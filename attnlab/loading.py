@@ -105,14 +105,27 @@ def _load(module: str, origin: str, alias: str | None = None) -> bool:
 def plugin_hashes(config: Mapping[str, Any]) -> dict[str, str]:
     """Plugin files that a run's config names parts of: file -> sha256 (16 digits), so that a run knows its code. Of a
     pip package every Python file counts, for a part may call any of them."""
-    words = set(_words(config))
-    found: dict[str, str] = {}
-    for spec in parts.values():
-        if GROUPS[spec.group].in_key and not GROUPS[spec.group].in_report and not words.isdisjoint(spec.options) \
-                and not spec.origin.startswith(f"{PACKAGE}{os.sep}") and Path(spec.origin).is_file():
-            for name, file in _files_of(spec, Path(spec.origin)):
-                found[name] = hashlib.sha256(file.read_bytes()).hexdigest()[:16]
+    found = {name: hashlib.sha256(file.read_bytes()).hexdigest()[:16] for spec in _plugins_of(config)
+             for name, file in _files_of(spec, Path(spec.origin))}
     return dict(sorted(found.items()))
+
+
+def plugin_versions(config: Mapping[str, Any]) -> dict[str, str]:
+    """Version of every pip package, by its name, of which a run's config names a part."""
+    from importlib.metadata import packages_distributions, version
+    roots = {spec.cls.__module__.partition(".")[0] for spec in _plugins_of(config)} - {"attnlab"}
+    if not roots:
+        return {}
+    known = packages_distributions()
+    return {name: version(name) for root in sorted(roots) for name in known.get(root, ())}
+
+
+def _plugins_of(config: Mapping[str, Any]) -> list[Spec]:
+    """Parts of a run, not built in, that its config names."""
+    words = set(_words(config))
+    return [spec for spec in parts.values()
+            if GROUPS[spec.group].in_key and not GROUPS[spec.group].in_report and not words.isdisjoint(spec.options)
+            and not spec.origin.startswith(f"{PACKAGE}{os.sep}") and Path(spec.origin).is_file()]
 
 
 def _files_of(spec: Spec, origin: Path) -> Iterator[tuple[str, Path]]:

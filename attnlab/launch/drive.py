@@ -6,11 +6,13 @@ import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from attnlab.config import COSMETIC, RunSettings
 from attnlab.launch import engines, robots
 from attnlab.launch.jobs import OTHER_CODE, Job, split
 from attnlab.launch.progress import Display
+from attnlab.loading import plugin_hashes, plugin_versions
 from attnlab.registry import make
 from attnlab.results.old import recovered
 from attnlab.tables.code import code
@@ -51,13 +53,22 @@ def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> None:
     for job in jobs:
         asked.setdefault(job.of.key, (job.of, []))[1].append((job.run, job.key, job.settings.seed))
     before = recovered(folder) if folder.is_dir() and not (folder / FILE).exists() else None
-    study = grow(folder, as_typed(typed), list(asked.values()), jobs[0].settings.labels, code(), jobs[0].claims,
+    study = grow(folder, as_typed(typed), list(asked.values()), jobs[0].settings.labels, _code(jobs), jobs[0].claims,
                  before, {name: jobs[0].config[name] for name in sorted(COSMETIC) if name in jobs[0].config})
     names = {condition.key: condition.name for condition in study.conditions}
     homes = {run.key: run.name for run in study.runs}
     for job in jobs:
         job.of.name = names[job.of.key]
         job.folder = folder / homes[job.key]  # another command may have named the run already
+
+
+def _code(jobs: Sequence[Job]) -> dict[str, Any]:
+    """The code that is to run: ours, files of ``plugins`` and versions of ``packages`` that a condition names."""
+    plugins, packages = {}, {}
+    for config in {job.of.key: job.config for job in jobs}.values():
+        plugins.update(plugin_hashes(config))
+        packages.update(plugin_versions(config))
+    return {**code(), **({"plugins": plugins} if plugins else {}), **({"packages": packages} if packages else {})}
 
 
 def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:

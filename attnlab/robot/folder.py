@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from attnlab.errors import describe
-from attnlab.loading import plugin_hashes
+from attnlab.loading import plugin_hashes, plugin_versions
 from attnlab.robot.engines import Choice, choose
 from attnlab.robot.episodes import Progress, play_run
 from attnlab.robot.guards import verdict
@@ -49,8 +49,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
              "overrides": list(info["overrides"]),
              "swept": dict(info["swept"]), "curiosity": config["curiosity"]["name"], "schema": SCHEMA_VERSION,
              "condition": info.get("condition"), "plugins": plugin_hashes(config),
-             "versions": versions(), "code": info.get("code"), "claims": info.get("claims"),
-             "claim": claim.token if claim else None, "engine": None, "engine_why": None,
+             "versions": {**versions(), **plugin_versions(config)}, "code": info.get("code"),
+             "claims": info.get("claims"), "claim": claim.token if claim else None, "engine": None, "engine_why": None,
              "pid": os.getpid(), "pid_birth": birth(os.getpid()), "host": platform.node(),
              "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
     write_json(folder / "run.json", about)

@@ -51,6 +51,11 @@ def check(python, place, *sweep):
     for run in place.path.glob("outputs/island/*/run.json"):
         assert (run.parent / "longest.txt").read_text() == "60\n"  # its callback
         assert not json.loads(run.read_text()).get("callbacks")
+    of = next(place.path.glob("outputs/island/weekly*/run.json"))
+    assert json.loads(of.read_text())["versions"]["attnlab-example"] == "0.1"
+    study = json.loads((place.path / "outputs" / "island" / "study.json").read_text())
+    assert study["code"]["packages"] == {"attnlab-example": "0.1"}
+    assert "attnlab_example/weekly.py" in study["code"]["plugins"]
     (place.path / "pool.py").write_text(IN_A_POOL)
     pooled = python("pool.py")
     assert "same in workers" in pooled.stdout, pooled.stderr
