@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 SHORT = ["simulator=planar", "train_episodes=2", "validation_episodes=1", "max_cycles=60", "picture=false",
-         "report=false"]
+         "report=false", "cluster=serial"]
 
 
 class Place:

@@ -11,31 +11,31 @@ from attnlab.new import groups
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def test_every_group_starts_with_a_part_that_passes_its_tests(attnlab, tmp_path):
+def test_every_group_starts_with_a_part_that_passes_its_tests(attnlab, here, tmp_path):
     assert set(GROUPS) - set(groups()) <= {"cluster"}  # the one group whose parts are written by few
     for group in groups():
-        done = attnlab(group, f"my_{group}", module="attnlab.new")
+        done = here(group, f"my_{group}", module="attnlab.new")
         assert done.returncode == 0, done.stderr
         assert (tmp_path / "plugins" / f"my_{group}.py").is_file()
     tested = attnlab("-q", "-p", "no:cacheprovider", "tests", module="pytest")
     assert tested.returncode == 0, tested.stdout
-    again = attnlab("fusion", "my_fusion", module="attnlab.new")
+    again = here("fusion", "my_fusion", module="attnlab.new")
     assert again.returncode == 2 and "exists already" in again.stderr
 
 
-def test_an_experiment_claims_and_a_world_of_ones_own(attnlab, tmp_path):
+def test_an_experiment_claims_and_a_world_of_ones_own(here, tmp_path):
     """What is written runs as it is, together: the experiment in the world, judged by the claims."""
     for kind, name in (("experiment", "mine"), ("claims", "hopes"), ("yaml_world", "room")):
-        done = attnlab(kind, name, module="attnlab.new")
+        done = here(kind, name, module="attnlab.new")
         assert done.returncode == 0, done.stderr
-    done = attnlab("+experiment=mine", "seed=0-5", "world=room", "claims_file=hopes", "train_episodes=2",
+    done = here("+experiment=mine", "seed=0-5", "world=room", "claims_file=hopes", "train_episodes=2",
                    "picture=false", "validation_episodes=1", "max_cycles=60", "simulator=planar")
     assert done.returncode == 0 and "NCR" in done.stdout, done.stderr
     verdicts = next((tmp_path / "outputs" / "mine").rglob("verdicts.csv")).read_text()
     assert "hopes_1" in verdicts and "untestable" not in verdicts
-    again = attnlab("claims", "hopes", module="attnlab.new")
+    again = here("claims", "hopes", module="attnlab.new")
     assert again.returncode == 2 and "exists already" in again.stderr and again.stderr.count("\n") == 1
-    unknown = attnlab("experimint", "x", module="attnlab.new")
+    unknown = here("experimint", "x", module="attnlab.new")
     assert unknown.returncode == 2 and "Did you mean 'experiment'" in unknown.stderr
 
 

@@ -51,10 +51,10 @@ def check(python, place, *sweep):
     for run in place.path.glob("outputs/island/*/run.json"):
         assert (run.parent / "longest.txt").read_text() == "60\n"  # its callback
         assert not json.loads(run.read_text()).get("callbacks")
-    of = next(place.path.glob("outputs/island/weekly*/run.json"))
-    assert json.loads(of.read_text())["versions"]["attnlab-example"] == "0.1"
+    of = next(place.path.glob("outputs/island/*weekly*/run.json"))
+    assert json.loads(of.read_text())["versions"]["attnlab-example"] == "0.1.0"
     study = json.loads((place.path / "outputs" / "island" / "study.json").read_text())
-    assert study["code"]["packages"] == {"attnlab-example": "0.1"}
+    assert study["code"]["packages"] == {"attnlab-example": "0.1.0"}
     assert "attnlab_example/weekly.py" in study["code"]["plugins"]
     (place.path / "pool.py").write_text(IN_A_POOL)
     pooled = python("pool.py")
@@ -76,14 +76,15 @@ def test_a_package_brings_files_measures_and_figures(place, tmp_path):
         return done.stdout
     path = installed_by_hand(tmp_path / "site")
     python("-m", "attnlab", "+experiment=island", "curiosity=weekly", "seed=0-2", "simulator=planar",
-           "train_episodes=4", "validation_episodes=1", "max_cycles=100", "picture=false")
+           "train_episodes=4", "validation_episodes=1", "max_cycles=100", "picture=false", "cluster=serial")
     page = (place.path / "outputs" / "island" / "report" / "index.html").read_text()
     assert "how far to the east" in page and "The weekly robot gets east" in page
     known = "from attnlab.api import load; print(load('outputs/island').episodes['east_m'].min() > 0)"
     assert python("-c", known) == "True\n"
     assert "A table of the island" in python("-m", "attnlab.audit", "island")
     python("-m", "attnlab", "variants={design: multiverse, size: 2, factors: island}", "simulator=planar", "study=two",
-           "train_episodes=1", "validation_episodes=1", "max_cycles=60", "picture=false", "report=false")
+           "train_episodes=1", "validation_episodes=1", "max_cycles=60", "picture=false", "report=false",
+           "cluster=serial")
     assert len(list(place.path.glob("outputs/two/*/run.json"))) == 2
 
 

@@ -122,10 +122,10 @@ def test_a_folder_of_studies_is_none(tmp_path):
         load(tmp_path / "outputs" / "one" / "none-seed0")
 
 
-def test_variants_that_grow_are_three_conditions(attnlab, tmp_path):
+def test_variants_that_grow_are_three_conditions(here, tmp_path):
     two = "a:{reading.need_k:1},b:{reading.need_k:2}"
-    assert attnlab(f"variants={{{two}}}", *SHORT).returncode == 0
-    done = attnlab(f"variants={{{two},c:{{reading.need_k:3}}}}", *SHORT)
+    assert here(f"variants={{{two}}}", *SHORT).returncode == 0
+    done = here(f"variants={{{two},c:{{reading.need_k:3}}}}", *SHORT)
     assert done.returncode == 0 and "2 of 3 runs are complete already" in done.stdout, done.stdout + done.stderr
     study = load(tmp_path / "outputs" / "main")
     assert [c.name for c in study.file.conditions] == ["a", "b", "c"]
@@ -142,35 +142,35 @@ def test_the_same_run_twice_is_refused(complain, typed, says):
     assert code == 2 and says in err and written == []
 
 
-def test_a_resume_under_other_code_is_marked(attnlab, tmp_path):
-    assert attnlab("seed=0-1", *SHORT).returncode == 0
+def test_a_resume_under_other_code_is_marked(here, tmp_path):
+    assert here("seed=0-1", *SHORT).returncode == 0
     file = sorted(tmp_path.glob("outputs/main/*/run.json"))[0]
     about = json.loads(file.read_text())
     assert about["code"] == json.loads((tmp_path / "outputs/main" / FILE).read_text())["code"]
     about["code"]["hash"] = "elsewhere"
     file.write_text(json.dumps(about))
-    again = attnlab("seed=0-1", *SHORT)
+    again = here("seed=0-1", *SHORT)
     assert "nothing to run" in again.stdout
     assert "mind: 1 of the complete runs were made by other code" in again.stderr and "fresh=true" in again.stderr
-    page = attnlab("main", module="attnlab.report")
+    page = here("main", module="attnlab.report")
     assert "the runs were made by 2 versions of the code" in page.stdout
 
 
-def test_the_page_says_what_was_typed(attnlab, tmp_path):
-    assert attnlab("+experiment=cr_vs_ncr", "seed=0-1", *SHORT).returncode == 0
-    assert attnlab("main", "--quiet", module="attnlab.report").returncode == 2
-    assert attnlab("cr_vs_ncr", "--quiet", module="attnlab.report").returncode == 0
+def test_the_page_says_what_was_typed(here, tmp_path):
+    assert here("+experiment=cr_vs_ncr", "seed=0-1", *SHORT).returncode == 0
+    assert here("main", "--quiet", module="attnlab.report").returncode == 2
+    assert here("cr_vs_ncr", "--quiet", module="attnlab.report").returncode == 0
     page = (tmp_path / "outputs/cr_vs_ncr/report/index.html").read_text()
     assert f"python -m attnlab +experiment=cr_vs_ncr seed=0-1 {' '.join(SHORT)}" in page
 
 
-def test_a_study_without_a_file_is_read_and_grows(attnlab, tmp_path):
-    assert attnlab("curiosity=litman,none", *SHORT).returncode == 0
+def test_a_study_without_a_file_is_read_and_grows(here, tmp_path):
+    assert here("curiosity=litman,none", *SHORT).returncode == 0
     folder = tmp_path / "outputs" / "main"
     before = load(folder).episodes
     (folder / FILE).unlink()
     assert load(folder).episodes.equals(before)
-    done = attnlab("curiosity=litman,none", "seed=0-1", *SHORT)
+    done = here("curiosity=litman,none", "seed=0-1", *SHORT)
     assert "2 of 4 runs are complete already" in done.stdout
     assert [c.name for c in read_study(folder).conditions] == ["litman", "none"]
     assert len(load(folder).complete) == 4

@@ -29,8 +29,8 @@ def test_overrides_are_written_in_hydras_grammar():
         assert parsed.value() == value
 
 
-def test_variants_are_conditions(attnlab, tmp_path):
-    done = attnlab("-m", "simulator=planar", "train_episodes=2", "validation_episodes=1", "max_cycles=60", "seed=0-1",
+def test_variants_are_conditions(here, tmp_path):
+    done = here("-m", "simulator=planar", "train_episodes=2", "validation_episodes=1", "max_cycles=60", "seed=0-1",
                    "report=false", "picture=false",
                    "variants={plain:{learner:fixed_4,curiosity:none},new:{learner:q_learning,reading.need_k:2}}")
     assert done.returncode == 0, done.stderr
