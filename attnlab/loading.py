@@ -112,12 +112,11 @@ def plugin_hashes(config: Mapping[str, Any]) -> dict[str, str]:
 
 def plugin_versions(config: Mapping[str, Any]) -> dict[str, str]:
     """Version of every pip package, by its name, of which a run's config names a part."""
-    from importlib.metadata import packages_distributions, version
+    from importlib.metadata import entry_points
     roots = {spec.cls.__module__.partition(".")[0] for spec in _plugins_of(config)} - {"attnlab"}
-    if not roots:
-        return {}
-    known = packages_distributions()
-    return {name: version(name) for root in sorted(roots) for name in known.get(root, ())}
+    points = entry_points(group=ENTRY_POINTS) if roots else ()
+    return {point.dist.name: point.dist.version for point in points
+            if point.dist is not None and point.module.partition(".")[0] in roots}
 
 
 def _plugins_of(config: Mapping[str, Any]) -> list[Spec]:

@@ -166,7 +166,7 @@ class Memory:
         for source in {source_of(type(thing)) for thing in things}:
             same = [thing for thing in things if source_of(type(thing)) is source]
             described = [self._describe(thing) for thing in same]
-            for name in described[0]:
+            for name in dict.fromkeys(name for fields in described for name in fields):
                 kinds = tuple(dict.fromkeys(fields[name][0] for fields in described if name in fields))
                 missing = not all(name in fields for fields in described)
                 if len(kinds) > 1 and all(isinstance(kind, Reference) for kind in kinds) and not missing:

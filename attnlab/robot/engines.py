@@ -15,6 +15,7 @@ from attnlab.robot.episode import run_episode
 from attnlab.robot.plan import RunPlan
 
 EPISODES = 3  # that both engines play before one is trusted
+LOOKS_CYCLES = 300_000  # below, Python is done before it is known whether there is compiled code
 PAYS_CYCLES = 3_000_000  # that runs of one composition share: what compiling costs in CPU time, Python takes for them
 
 Play = Callable[[Agent, Exploration, tuple[float, float, float], bool], tuple[str | None, list[float]]]
@@ -32,6 +33,9 @@ def choose(plan: RunPlan, cycles: int | None = None, announce: Callable[[], None
     asked = plan.settings.engine
     if asked == "python":
         return Choice("python", "engine=python")
+    total = cycles or plan.settings.max_cycles * (plan.settings.train_episodes + plan.settings.validation_episodes)
+    if asked == "auto" and total < LOOKS_CYCLES:
+        return Choice("python", f"it is short: {total:,} cycles at most")
     why = _never(plan)
     if not why:
         try:
@@ -39,7 +43,6 @@ def choose(plan: RunPlan, cycles: int | None = None, announce: Callable[[], None
         except ImportError as cause:
             why = f"numba is missing or too old ({describe(cause)})"
     if not why:
-        total = cycles or plan.settings.max_cycles * (plan.settings.train_episodes + plan.settings.validation_episodes)
         try:
             kept = build(plan, only_kept=True)
             if not kept and asked == "auto" and total < PAYS_CYCLES:
@@ -52,6 +55,8 @@ def choose(plan: RunPlan, cycles: int | None = None, announce: Callable[[], None
                 return Choice("compiled", f"engine={asked}" + ", and it was compiled before" * kept)
         except Uncompilable as cause:
             why = str(cause)
+        except Exception as cause:  # noqa: BLE001  whatever it is that a part of anybody's does to the compiler
+            why = f"compiling failed ({describe(cause)})"
     if asked == "compiled":
         raise ConfigError("engine=compiled", f"cannot be: {why}", "engine=auto runs interpreted what does not compile")
     return Choice("python", why)
