@@ -21,12 +21,13 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--share", default="1/1", metavar="I/N", help="begin with the I-th of N shares, then help")
     parser.add_argument("--minutes", type=float, metavar="M", help="leave before so many minutes are over")
     parser.add_argument("--jobs", type=int, metavar="N", help="runs side by side (default: all cores)")
+    parser.add_argument("--run", action="append", metavar="NAME", help="only this run; several times for several")
     given = parser.parse_args(list(argv))
     if given.minutes is not None and not given.minutes > 0:
         raise ConfigError("--minutes", f"is {given.minutes}, must be more than 0")
     from attnlab.launch.asked import do
     load_all()
-    return do(given.study, share_of(given.share), given.minutes, given.jobs)
+    return do(given.study, share_of(given.share), given.minutes, given.jobs, only=given.run)
 
 
 def share_of(text: str) -> tuple[int, int]:

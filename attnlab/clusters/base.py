@@ -38,6 +38,9 @@ class Cluster(ABC):
         """How many of these runs are done side by side."""
         return 1
 
+    def check(self) -> None:
+        """Raise ConfigError if nothing can be done here; before anything is written."""
+
     @abstractmethod
     def run(self, jobs: Sequence[Job], display: Display) -> None:
         """Do all jobs; what became of each is in its folder. ``display`` is told of episodes and cycles as they come

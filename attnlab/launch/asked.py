@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +26,15 @@ def study_of(name: str) -> tuple[Path, StudyFile]:
     return folder, study
 
 
-def jobs_of(folder: Path, study: StudyFile, failed: bool = False, whole: bool = False) -> list[Job]:
+def jobs_of(folder: Path, study: StudyFile, failed: bool = False, whole: bool = False,
+            only: Sequence[str] | None = None) -> list[Job]:
     """The jobs of a study that are to be done: those that never ran, were interrupted or are damaged (``whole``: read
     every table to see), and with ``failed`` those that failed."""
     conditions, plans, found = study.by_name(), dict[str, RunPlan](), list[Job]()
+    chosen = None if only is None else set(only)
     for run in study.runs:
+        if chosen is not None and run.name not in chosen:
+            continue
         status, _, about = state_of(folder / run.name, whole)
         if status == "complete" or (status == "failed" and not failed and not about.get("interrupted")):
             continue
@@ -49,18 +53,19 @@ def config_of(folder: Path, study: StudyFile, condition: Condition, seed: int) -
 
 
 def do(name: str, share: tuple[int, int] = (1, 1), minutes: float | None = None, at_once: int | None = None,
-       failed: bool = False, cluster: Mapping[str, Any] | None = None) -> int:
+       failed: bool = False, only: Sequence[str] | None = None) -> int:
     """Do what is missing of a study, this ``share`` (one of how many) first, then what nobody else does. Leaves before
-    ``minutes`` are over. 0, or 1 if a run that was begun failed. Raises ConfigError."""
+    ``minutes`` are over; ``only``: names of the runs to do. 0, or 1 if a run that was begun failed.
+    Raises ConfigError."""
     until = None if minutes is None else time.monotonic() + 60 * minutes
     folder, study = study_of(name)
-    jobs = jobs_of(folder, study, failed, whole=failed)
+    jobs = jobs_of(folder, study, failed, whole=failed, only=only)
     mine = [job for i, job in enumerate(jobs) if i % share[1] == share[0] - 1]
     mine += [job for i, job in enumerate(jobs) if i % share[1] != share[0] - 1]
     if not jobs:
         print(f"{folder}: nothing to do, {_standing(folder, study)}")
         return 0
-    where = make("cluster", cluster or {"name": "local", "jobs": at_once}, None)
+    where = make("cluster", {"name": "local", "jobs": at_once}, None)
     where.waits, where.until = False, until
     print(f"{folder}: {len(jobs)} of {len(study.runs)} runs to be done, {where.at_once(mine)} at a time", flush=True)
     with Display(len(mine), sum(job.episodes for job in mine), where.params.stop_after) as display:

@@ -33,7 +33,7 @@ from attnlab.launch.jobs import Job, check_different, condition_of, make_job
 from attnlab.launch.place import check_place
 from attnlab.launch.variants import as_override, read_variants
 from attnlab.loading import config_folders
-from attnlab.registry import build_params
+from attnlab.registry import make
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.ranges import RANGED, seeds
 
@@ -119,7 +119,7 @@ def _of_condition(config: dict[str, Any], overrides: list[str], values: dict[str
 def _check_once(jobs: Sequence[Job]) -> None:
     """What is the same for all jobs of a command: the cluster, and the claims file, whose mark they keep."""
     settings = jobs[0].settings
-    build_params("cluster", settings.cluster, "cluster")
+    make("cluster", settings.cluster, None).check()
     load_claims(settings.claims_file)
     claims = claims_mark(settings.claims_file)
     for job in jobs:

@@ -46,3 +46,27 @@ def join(tables: list[pa.Table]) -> pd.DataFrame:
         import pandas as pd
         frame = pd.concat([found.to_pandas() for found in tables], ignore_index=True)
     return frame
+
+
+CORE = {"episodes": ("run", "phase", "episode", "cycles", "survival", "death"),
+        "behaviours": ("run", "phase", "episode", "behaviour", "activations", "reward"),
+        "policy": ("run", "behaviour", "period", "percept", "action", "q"),
+        "cycles": ("run", "phase", "episode", "cycle"), "coverage": ("run", "phase", "visits")}
+
+
+def check_table(found: pa.Table, table: str, run: str) -> None:
+    """Raise ValueError unless this is the run's table, with what every version of it has and numbers that can be."""
+    import pyarrow.compute as pc
+    lacking = [name for name in CORE[table] if name not in found.column_names]
+    if lacking:
+        raise ValueError(f"has no column {', '.join(lacking)}")
+    if not len(found):
+        return
+    owners = pc.unique(found.column("run")).to_pylist()
+    if owners != [run]:
+        raise ValueError(f"is the table of {', '.join(map(str, owners[:3]))}")
+    if table == "episodes":
+        survival = found.column("survival")
+        fine = pc.and_(pc.greater_equal(survival, 0.0), pc.less_equal(survival, 1.0))
+        if survival.null_count or not pc.all(fine).as_py():
+            raise ValueError("says that something survived that cannot be (survival is a share, 0 to 1)")

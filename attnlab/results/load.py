@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from attnlab.errors import ConfigError, nearest
-from attnlab.results.arrow import join, last_episode, marked
+from attnlab.results.arrow import check_table, join, last_episode, marked
 from attnlab.results.old import recovered, upgraded
 from attnlab.results.states import looks_like_run, states_in
 from attnlab.tables.files import mark_of
@@ -179,11 +179,12 @@ class Study:
         for name in self.complete:
             try:
                 found = pq.ParquetFile(pa.BufferReader(self._bytes(name, table))).read(use_threads=False)
+                check_table(found, table, name)
+                found = upgraded(found, table, self.about(name))
             except Exception as cause:  # noqa: BLE001  whatever the reader makes of a damaged file, the others go on
                 self._broken[name] = f"{table}.parquet: {cause}"
                 self.__dict__.pop("runs", None)
                 continue
-            found = upgraded(found, table, self.about(name))
             tables[name] = found if cut is None else cut(found)
         if not tables:
             return pd.DataFrame()

@@ -12,6 +12,7 @@ from typing import Any
 from attnlab.errors import ConfigError
 from attnlab.tables import claim
 from attnlab.tables.files import read_json
+from attnlab.tables.numbers import kept
 from attnlab.tables.study import FILE, StudyFile, read_study
 
 SILENT_S = 4 * claim.BEAT_S
@@ -67,7 +68,7 @@ def look(folder: Path) -> Look:
         if state == "complete":
             found.episodes_done += episodes
             of.complete += 1
-            _add_numbers(of, about.get("numbers"))
+            _add_numbers(of, kept(about) or {})
         elif state == "failed":
             lines = str(about.get("error") or "").strip().splitlines() or ["no reason was stored"]
             found.failed.append((run.name, lines[-1][:200]))
@@ -126,9 +127,7 @@ def _state(about: dict[str, Any], standing: claim.Standing | None) -> str:
     return status if status in STATES else "missing"
 
 
-def _add_numbers(of: OfCondition, numbers: Any) -> None:
-    if not isinstance(numbers, dict):
-        return
+def _add_numbers(of: OfCondition, numbers: dict[str, Any]) -> None:
     halves = [v for v in (numbers.get("early"), numbers.get("late")) if isinstance(v, float)]
     if halves:
         of.train.append(sum(halves) / len(halves))

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from attnlab.results.load import Study
-from attnlab.tables.numbers import needs_in
+from attnlab.tables.numbers import kept, needs_in
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -24,11 +24,10 @@ def summary_frame(study: Study, named: Mapping[str, str]) -> pd.DataFrame:
     them, else from the tables."""
     import pandas as pd
     rows = []
-    kept = {run: study.about(run).get("numbers") for run in named}
     names = behaviours_of(study, named)
     for name in dict.fromkeys(named.values()):
         runs = [run for run, of in named.items() if of == name]
-        numbers = [n for run in runs if isinstance(n := kept[run], Mapping)]
+        numbers = [found for run in runs if (found := kept(study.about(run))) is not None]
         if len(numbers) < len(runs):
             return _from_tables(study, named)
         needs = dict.fromkeys(need for n in numbers for need in n["needs"])

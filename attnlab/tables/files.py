@@ -62,7 +62,7 @@ def read_json(path: Path) -> dict[str, Any] | None:
     """The content, or None if the file is missing or no JSON object."""
     try:
         content = json.loads(path.read_text())
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     return content if isinstance(content, dict) else None
 

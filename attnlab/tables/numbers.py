@@ -46,3 +46,16 @@ def numbers_of(tables: Mapping[str, Mapping[str, Sequence[Any]]]) -> dict[str, A
 def _mean(values: Iterable[Any]) -> float | None:
     found = [float(value) for value in values if value is not None]
     return total(found) / len(found) if found else None
+
+
+def kept(about: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The numbers of a run.json; None if it has none, or if they are none of ours."""
+    found = about.get("numbers")
+    if not isinstance(found, dict):
+        return None
+    plain = [found.get(name, ()) for name in ("early", "late", "validation", "crashed", "energy", "safety")]
+    for name in ("needs", "activations"):
+        if not isinstance(found.get(name), dict):
+            return None
+        plain += found[name].values()
+    return found if all(value is None or isinstance(value, (int, float)) for value in plain) else None
