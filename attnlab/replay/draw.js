@@ -146,7 +146,7 @@ class Pane {
 
   table(parent) {
     const table = html("table", "", parent), head = html("tr", "", html("thead", "", table));
-    for (const text of ["", "looked", "percept", "level", "was", ...this.track.periods.map(p => `period ${p}`)])
+    for (const text of ["behaviour", "looked", "percept", "level", "was", ...this.track.periods.map(p => `period ${p}`)])
       html("th", text, head, { scope: "col" });
     const body = html("tbody", "", table);
     this.rows = this.names.map(name => {
