@@ -15,7 +15,7 @@ from attnlab.claims.roles import Combinations, strata
 from attnlab.errors import ConfigError
 from attnlab.figures.base import FigureContext, gallery
 from attnlab.figures.style import drawing
-from attnlab.report import curve, drawn, glance, multiverse, provenance, table5, verdicts
+from attnlab.report import curve, drawn, forest, glance, multiverse, provenance, table5, verdicts
 from attnlab.report.captions import load_captions
 from attnlab.report.page import Section, Shown, nothing_testable, page, table
 from attnlab.results.conditions import Conditions
@@ -61,7 +61,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     notes += [f"the figure '{figure.title}' is not drawn: {figure.failed}" for figure in shown if figure.failed]
     text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first,
                 telling if telling is not None and len(judged) > 1 else "", shown,
-                sections, provenance.block(study, conditions, claims))
+                sections, provenance.block(study, conditions, claims), forest.first_screen(study))
     write_bytes(target / "index.html", text.encode())
     if not quiet:
         _print(notes, next((rows for name, rows in tables if name == telling), None), first, telling, target)

@@ -44,12 +44,12 @@ def chip(verdict: Finding, text: str = "") -> str:
 
 
 def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict], where: str,
-         figures: Sequence[Shown], sections: Sequence[Section], provenance: str) -> str:
+         figures: Sequence[Shown], sections: Sequence[Section], provenance: str, found: str = "") -> str:
     """The whole page. ``where``: the settings that the verdicts are for, if there are others; ``sections`` follow the
-    figures; ``provenance`` is HTML."""
+    figures; ``provenance`` is HTML, and so is ``found``, the first screen."""
     style = (Path(__file__).parent / "style.css").read_text()
-    links = [("verdicts", "Verdicts"), ("figures", "Figures"), *((s.key, s.title) for s in sections),
-             ("provenance", "Provenance")]
+    links = [*([("found", "What was found")] if found else []), ("verdicts", "Verdicts"), ("figures", "Figures"),
+             *((s.key, s.title) for s in sections), ("provenance", "Provenance")]
     parts = [
         "<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
@@ -58,7 +58,7 @@ def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: 
         '<link rel="icon" href="data:,">', f"<title>{escape(title)}</title>", f"<style>\n{style}</style>", "</head>",
         "<body>", "<main>", f"<h1>{escape(title)}</h1>", f'<p class="lead">{escape(lead)}</p>',
         _notes(notes), "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>",
-        headline(claims, verdicts, where), '<h2 id="figures">Figures</h2>',
+        found, headline(claims, verdicts, where), '<h2 id="figures">Figures</h2>',
         *(_figure(shown, {v.id: v for v in verdicts}) for shown in figures),
         *(f'<h2 id="{s.key}">{escape(s.title)}</h2>\n{s.html}' for s in sections),
         PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1],
@@ -131,7 +131,8 @@ def _figure(shown: Shown, verdicts: Mapping[str, Verdict]) -> str:
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = ()) -> str:
     """A table of texts, escaped; columns in ``numbers`` are aligned to the right."""
     def cells(row: Sequence[str], tag: str) -> str:
-        return "".join(f'<{tag}{" class=n" if i in numbers else ""}>{escape(str(c))}</{tag}>'
-                       for i, c in enumerate(row))
+        return "".join(f'<{of}{" class=n" if i in numbers else ""}>{escape(str(c))}</{of}>'
+                       for i, c in enumerate(row) for of in (tag if str(c) else "td",))
     body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
-    return f'<div class="scroll"><table><thead><tr>{cells(heads, "th")}</tr></thead><tbody>{body}</tbody></table></div>'
+    return ('<div class="scroll" tabindex="0" role="group" aria-label="table"><table><thead><tr>'
+            f'{cells(heads, "th")}</tr></thead><tbody>{body}</tbody></table></div>')

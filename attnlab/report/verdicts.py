@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from html import escape
 
+from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Verdict
 from attnlab.claims.parts import PAIRED
 from attnlab.report.page import Section, chip
@@ -27,10 +28,13 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
         rows.append(
             f'<tr id="claim-{escape(v.id)}"><td><b>{escape(v.id)}</b> {escape(v.claim.title)}<br>'
             f'<span class=small>{escape(v.claim.where)}: {escape(v.claim.says)}</span></td><td>{chip(v.verdict)}</td>'
-            f"<td>{escape(v.reason)}.{''.join(map(_small, _asides(v)))}</td><td class=n>{_n(lead.effect, '.2f')}</td>"
-            f"<td class=n>{_n(v.p)}</td><td class=n>{_n(v.p_holm)}</td><td class=n>{lead.seeds or '-'}</td></tr>")
+            f"<td>{escape(v.reason)}.{_ticks(v)}{''.join(map(_small, _asides(v)))}</td>"
+            f'<td class=n data-name="effect d">{_n(lead.effect, ".2f")}</td><td class=n data-name="p">{_n(v.p)}</td>'
+            f'<td class=n data-name="Holm">{_n(v.p_holm)}</td>'
+            f'<td class=n data-name="seeds">{lead.seeds or "-"}</td></tr>')
     where = f"<p>For {escape(stratum)}.</p>" if stratum else ""
-    html = (f'{where}<div class="scroll"><table class=claims><thead><tr>{head}</tr></thead>'
+    html = (f'{where}<div class="scroll" tabindex="0" role="region" aria-label="claims"><table class=claims>'
+            f'<thead><tr>{head}</tr></thead>'
             f'<tbody>{"".join(rows)}</tbody></table></div>'
             "<p class=small>Differences are paired by seed; in brackets 95 % t intervals over seeds, which decide (of "
             "a median: between order statistics). Effect d: mean over standard deviation of the differences. p: of the "
@@ -38,6 +42,19 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
             "claims. BCa intervals and exact sign-flip p of every comparison: verdicts.csv; values of every seed: "
             "seeds.csv.</p>")
     return Section("claims", "Claims one by one", html)
+
+
+def _ticks(v: Verdict) -> str:
+    """Every comparison that counts with its tick, cross or question mark, where a claim has several."""
+    counting = [p for p in v.parts if p.part.counts]
+    if len(counting) < 2:
+        return ""
+    items = []
+    for p in counting:
+        mark, word = ("?", "cannot say") if p.verdict is Finding.UNTESTABLE else \
+            ("✓", "holds") if p.verdict.holds else ("✗", "does not hold")
+        items.append(f'<li><span role="img" aria-label="{word}">{mark}</span> {escape(p.reason)}</li>')
+    return f"<ul class=ticks>{''.join(items)}</ul>"
 
 
 def _small(text: str) -> str:
@@ -67,7 +84,8 @@ def matrix(judged: dict[str, list[Verdict]], most: int = 12) -> Section:
     more = f"<p class=small>The first {most} of {len(judged)}; all are in verdicts.csv.</p>" \
         if len(judged) > most else ""
     return Section("combinations", "Claims in every combination of settings",
-                   f'<div class="scroll"><table class=matrix><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}'
+                   '<div class="scroll" tabindex="0" role="region" aria-label="claims by combination">'
+                   f'<table class=matrix><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}'
                    f"</tbody></table></div><ol class=small>{listed}</ol>{more}")
 
 
