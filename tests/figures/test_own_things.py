@@ -9,6 +9,7 @@ from attnlab.figures.base import FigureContext, make
 from attnlab.measures.needs import needs_of, unit_of
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import load
+from attnlab.tables.files import read_json, write_json
 from attnlab.testing.build import BOXES, node
 from attnlab.testing.study import conditions, plant
 
@@ -70,6 +71,8 @@ def test_a_unit_that_its_column_declares(tired, tmp_path):
         place = table.schema.get_field_index("fatigue_max")
         field = table.schema.field(place).with_metadata({"unit": "mV"})
         pq.write_table(table.cast(pa.schema(table.schema).set(place, field)), file)
+        about = read_json(file.with_name("run.json"))
+        write_json(file.with_name("run.json"), {name: of for name, of in about.items() if name != "tables"})
     volts = Conditions(load(study))
     assert unit_of(volts, "fatigue") == "mV" and unit_of(volts, "hunger") == "UoE"
     assert plot.maximum_need(volts).axes[2].get_title(loc="left") == "Fatigue, mV"
