@@ -97,7 +97,7 @@ class Slips(Exploration):
         {body}
 """
 FAULTS = {  # what the body of choose does, and what is said of it
-    "no field of that kind": ("return {0: values.index(max(values))}[0]", "slips"),
+    "what numba has not": ("return max(range(len(values)), key=lambda i: values[i])", "slips.py:"),
     "another number": ("self.seen = self.seen + 0.4\n        return 0 if self.seen < 3 else 1", "gives another"),
 }
 
