@@ -104,6 +104,8 @@ def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = N
         print(f"attnlab: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as stop:
+        if ours and argv is None:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process ends now; a second Ctrl-C is too late
         print("attnlab: stopped; what was complete stays, and the same command goes on from there", file=sys.stderr)
         return 143 if isinstance(stop, Terminated) else 130
     except OSError as cause:

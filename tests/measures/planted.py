@@ -18,7 +18,9 @@ def plant(study: Path, seed: int = 0, curiosity: str = "none", **tables: Rows) -
     """One complete run with these rows; a column that a row does not mention is empty."""
     folder = write_run(study, curiosity, seed, train=0, validation=0, cycles=0)
     for table in TABLES:
-        rows = [{"run": folder.name, "seed": seed, "curiosity": curiosity, **row} for row in tables.get(table, [])]
+        lived = {"survival": 1.0} if table == "episodes" else {}
+        rows = [{"run": folder.name, "seed": seed, "curiosity": curiosity, **lived, **row}
+                for row in tables.get(table, [])]
         names = dict.fromkeys([*SCHEMA[table], *(name for row in rows for name in row)])
         known = columns_of(table, ("avoid", "eat", "drink"), {}, {})
         write_parquet(folder / f"{table}.parquet", {name: [row.get(name) for row in rows] for name in names}, known)
