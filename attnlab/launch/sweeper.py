@@ -88,6 +88,7 @@ class StudySweeper(Sweeper):
                 jobs += _of_condition(composer.config(overrides), overrides, values, named, merged.get("seed"))
         check_different(jobs)
         _check_once(jobs)
+        _check_added(composer, [choices[0] for choices in map(_choices, merged.values())])
         return jobs
 
     def _merged(self, door: Door, arguments: Sequence[str]) -> dict[str, Override]:
@@ -114,6 +115,16 @@ def _of_condition(config: dict[str, Any], overrides: list[str], values: dict[str
         plan = RunPlan({**config, "seed": number}) if plan is None else plan.with_seed(number)
         more = [] if seed is None else [f"seed={number}"]
         yield make_job(plan, [*overrides, *more], values, named, condition)
+
+
+def _check_added(composer: Composer, overrides: Sequence[str]) -> None:
+    """What ``+behaviours=rest`` adds must not be there without it: it would be said and change nothing."""
+    for text in overrides:
+        override = composer.parsed(text)
+        group, added = override.key_or_group, str(override.value())
+        if override.is_add() and group in GROUPS and GROUPS[group].chosen == "list" and \
+                added in composer.config([other for other in overrides if other != text])[group]:
+            raise ConfigError(group, f"has '{added}' already, so that +{group}={added} adds nothing", "Leave it out")
 
 
 def _check_once(jobs: Sequence[Job]) -> None:

@@ -72,6 +72,7 @@ CASES = [
     (["variants=5"], "variants", "expected {name: {setting: value}}"),
     (["variants={a: {learnr.alpha: 1}}"], "learnr.alpha", "Did you mean 'learner.alpha'"),
     (["variants={a: {curiosity: nobody}}"], "curiosity=nobody", "no curiosity is called"),
+    (["+behaviours=avoid"], "behaviours", "has 'avoid' already, so that +behaviours=avoid adds nothing"),
     (["experiment=multiverse", "variants.siez=3"], "variants.siez", "Did you mean 'size'"),
     (["experiment=cr_vs_ncr,smoke"], "experiment", "a study of its own"),
     (["seed=range(0,5,0)"], "seed", "is empty"),

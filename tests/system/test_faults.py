@@ -17,7 +17,7 @@ import pytest
 from attnlab.launch.progress import Display
 
 ROOT = Path(__file__).resolve().parents[2]
-PLAIN = ("simulator=planar", "validation_episodes=1", "picture=false", "report=false")
+PLAIN = ("simulator=planar", "engine=python", "validation_episodes=1", "picture=false", "report=false")
 SHORT = (*PLAIN, "train_episodes=2", "max_cycles=60")
 
 

@@ -65,7 +65,8 @@ def test_two_shares_do_a_study_and_the_bytes_are_those_of_one_command(asked, att
 
 
 def test_sigterm_gives_back_within_ten_seconds(asked, tmp_path):
-    folder = asked("seed=0-2", "simulator=planar", "train_episodes=100000", "picture=false", "report=false")
+    folder = asked("seed=0-2", "simulator=planar", "engine=python", "train_episodes=100000", "picture=false",
+                   "report=false")
     process = begun(tmp_path, "asked", "--jobs", "2")
     until = time.monotonic() + 120
     while time.monotonic() < until and sum(r["status"] == "running" for r in runs_of(folder).values()) < 2:
@@ -79,7 +80,7 @@ def test_sigterm_gives_back_within_ten_seconds(asked, tmp_path):
 
 
 def test_it_leaves_in_time(asked, attnlab):
-    asked("seed=0-2", "simulator=planar", "train_episodes=100000", "picture=false", "report=false")
+    asked("seed=0-2", "simulator=planar", "engine=python", "train_episodes=100000", "picture=false", "report=false")
     begin = time.monotonic()
     done = attnlab("asked", "--minutes", "0.2", module="attnlab.work")
     assert time.monotonic() - begin < 30 and done.returncode == 0, done.stderr
