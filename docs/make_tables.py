@@ -37,7 +37,7 @@ def table(columns: dict[str, Column], prefix: str = "") -> list[str]:
 
 def page() -> str:
     """The whole page."""
-    parts = [HEAD]
+    parts = [HEAD.rstrip()]
     for name, columns in SCHEMA.items():
         shown = {column: of for column, of in columns.items() if column not in RUN or name == "episodes"}
         parts += [f"\n## {name}: {ROWS[name]}\n", "| column | unit | |", "|---|---|---|", *table(shown)]
