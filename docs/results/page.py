@@ -180,15 +180,17 @@ def multiverse(folder: Path) -> list[str]:
     for claim, title in {r["claim"]: r["title"] for r in found.table(folder, "multiverse", "verdicts")}.items():
         testable = [of for row in rows if (of := Finding(row[claim])) != Finding.UNTESTABLE]
         share = f"{100 * sum(of.holds for of in testable) / len(testable):.0f} %" if testable else "-"
-        clear = [e for e in effects if e["claim"] == claim and (float(e["low"]) > 0 or float(e["high"]) < 0)]
+        clear = [e for e in effects if e["claim"] == claim
+                 and ("low" not in e or float(e["low"]) > 0 or float(e["high"]) < 0)]  # older tables have intervals
         most = max(clear, key=lambda e: abs(float(e[columns[0]])), default=None)
-        moved = "-" if most is None else f"{most['factor']}={most['level']} (not {most['default']}): " + \
-            "{:+.0f} [{:+.0f}, {:+.0f}]".format(*(100 * float(most[column]) for column in columns))
+        numbers = [f"{100 * float(most[column]):+.0f}" for column in columns if column in most] if most else []
+        moved = "-" if most is None else f"{most['factor']}={most['level']} (not {most['default']}): {numbers[0]}" + (
+            f" [{', '.join(numbers[1:])}]" if numbers[1:] else "")
         shown.append([f"{claim} {title}", f"{len(testable)} of {len(rows)}", share, moved])
     return ["## The multiverse", "" if found.made(folder, "multiverse") else OLD_READINGS,
             f"`python -m attnlab +experiment=multiverse`: {len(rows)} readings of the paper's open sentences "
             "([multiverse](multiverse)).",
-            grid(("claim", "testable in", "holds in", "moved most by (difference of shares in points, 95 %)"), shown)]
+            grid(("claim", "testable in", "holds in", "moved most by (difference of shares in points)"), shown)]
 
 
 def readme(text: str, folder: Path) -> str:
