@@ -51,7 +51,7 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
         shown = drawn.draw(wanted, FigureContext(others), conditions, captions, told, target)
         tables = _tables(claims, conditions, combinations, target)
         sections = _sections(study, judged, combinations, telling, tables, target)
-        if len(judged) >= multiverse.LEAST_READINGS:
+        if sum(not nothing_testable(of) for of in judged.values()) >= multiverse.LEAST_READINGS:
             more, first_sections = _multiverse(multiverse.analyse(combinations, judged), target)
             shown, sections = more + shown, [*first_sections, *sections]
     sections.append(provenance.commands(study))
