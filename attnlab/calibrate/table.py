@@ -107,7 +107,7 @@ def as_csv(rows: Sequence[Row]) -> bytes:
     writer.writerow(HEADS)
     for row in rows:
         rates = (*row.false_reproduced, *row.false_contradicted, row.false_holds, row.power_holds, row.power_reproduced)
-        writer.writerow([row.id, row.title, row.planted, row.seeds, *(f"{x:.4f}" for x in rates),
+        writer.writerow([row.id, row.title, row.planted, row.seeds, *(f"{x:.6f}" for x in rates),
                          *(_seeds(x, row.known) for x in (row.to_hold, row.to_reproduce)),
                          "of the tables" if row.known else "standard"])
     return sink.getvalue().encode()
