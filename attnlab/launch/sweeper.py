@@ -122,8 +122,10 @@ def _check_added(composer: Composer, overrides: Sequence[str]) -> None:
     for text in overrides:
         override = composer.parsed(text)
         group, added = override.key_or_group, str(override.value())
-        if override.is_add() and group in GROUPS and GROUPS[group].chosen == "list" and \
-                added in composer.config([other for other in overrides if other != text])[group]:
+        if not (override.is_add() and group in GROUPS and GROUPS[group].chosen == "list"):
+            continue
+        without = [other for other in overrides if other != text and f"{group}.{added}." not in other.partition("=")[0]]
+        if added in composer.config(without)[group]:
             raise ConfigError(group, f"has '{added}' already, so that +{group}={added} adds nothing", "Leave it out")
 
 
