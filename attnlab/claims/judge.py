@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -213,8 +213,3 @@ def _together(key: str, claim: Claim, parts: list[PartVerdict], claims: Claims) 
     told = [part for part in counting if verdict.holds or part.verdict == verdict]
     reason = "; ".join(dict.fromkeys(filter(None, [*(part.reason for part in told), words.hanging(counting)])))
     return Verdict(key, claim, verdict, reason, parts, worst=worst)
-
-
-def as_measured(verdict: Verdict) -> Verdict:
-    """The same verdict without what lay behind it, small enough to keep thousands."""
-    return replace(verdict, parts=[replace(part, sample={}) for part in verdict.parts])

@@ -10,7 +10,7 @@ import numpy as np
 from attnlab.figures.episode import first_lines
 from attnlab.figures.panels import block_of, by_episode
 from attnlab.measures.base import CannotMeasure, Measure
-from attnlab.stats import t_interval
+from attnlab.stats import mean_interval
 
 if TYPE_CHECKING:
     from attnlab.results.conditions import Conditions
@@ -47,8 +47,7 @@ def validation(conditions: Conditions, measures: Sequence[tuple[str, Measure]], 
 
 def interval(of_seed: Mapping[int, float], digits: int) -> str:
     """``mean [low, high]`` over seeds."""
-    kept = [value for value in of_seed.values() if value == value]
-    value, low, high = map(float, t_interval(kept)[:3])
+    value, low, high = mean_interval(list(of_seed.values()))
     return f"{value:.{digits}f}" + (f" [{low:.{digits}f}, {high:.{digits}f}]" if np.isfinite(low) else "")
 
 

@@ -14,7 +14,7 @@ from attnlab.figures.style import GREY, WIDTH_IN, cut, empty, own_colours
 from attnlab.measures.base import CannotMeasure
 from attnlab.measures.space import Coverage, visit_maps
 from attnlab.registry import register
-from attnlab.stats import t_interval
+from attnlab.stats import mean_interval
 from attnlab.tables.schema import CELL_M
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ def _coverage(ax: Axes, lines: list[tuple[str, Line]], footprint: bool) -> None:
         except CannotMeasure:
             continue
         ax.plot(values, [place] * len(values), "o", ms=3.5, alpha=0.45, mew=0, color=line.colour)
-        mean, low, high = map(float, t_interval(values)[:3])
+        mean, low, high = mean_interval(values)
         if np.isfinite(low):
             ax.plot([low, high], [place, place], color=line.colour, lw=3, solid_capstyle="butt", alpha=0.6)
         ax.plot(mean, place, "D", ms=6, color=line.colour)

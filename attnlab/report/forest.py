@@ -10,16 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from attnlab.results.load import Study
-from attnlab.stats import Interval, t_interval
+from attnlab.stats import Interval, mean_interval
 
 MOST = 40
 ROW_PX, LEFT_PX, WIDTH_PX, RIGHT_PX = 26, 8, 420, 8
-
-
-def interval(values: Sequence[float]) -> Interval:
-    """The mean with its 95 % t interval."""
-    value, low, high, _ = t_interval(values)
-    return Interval(float(value), float(low), float(high))
 
 
 class Row(NamedTuple):
@@ -42,7 +36,7 @@ def rows_of(study: Study) -> list[Row]:
     for run, name in named.items():
         if run in means.index:
             found.setdefault(name, {})[study.seed(run)] = float(means[run])
-    rows = [Row(name, seeds, interval(list(seeds.values()))) for name, seeds in found.items()]
+    rows = [Row(name, seeds, mean_interval(list(seeds.values()))) for name, seeds in found.items()]
     return sorted(rows, key=lambda row: -row.value[0])
 
 
@@ -66,7 +60,7 @@ def sentences(rows: Sequence[Row]) -> list[str]:
     told = []
     for row in rows[1:MOST]:
         seeds = sorted(set(best.seeds) & set(row.seeds))
-        difference = interval([best.seeds[seed] - row.seeds[seed] for seed in seeds])
+        difference = mean_interval([best.seeds[seed] - row.seeds[seed] for seed in seeds])
         if len(rows) == 2:
             sure = "clear over seeds" if difference[1] > 0 else "not clear: the interval allows either side"
             texts.append(f"{row.name} survives {_told(row.value)}. Paired by seed ({len(seeds)} of them), the "

@@ -7,6 +7,7 @@ robot are not independent: Student's t where something is decided, bootstrap ban
 from attnlab.stats.intervals import (
     Ends,
     bca_interval,
+    mean_interval,
     median_interval,
     sign_flip_p,
     t_interval,
@@ -27,4 +28,5 @@ from attnlab.stats.space import coverage, entropy_bits, footprint_cells, gini
 
 __all__ = ["Ends", "Interval", "bca_interval", "block_means", "bootstrap_band", "bootstrap_interval", "chance_overlap",
            "convergence_episode", "coverage", "effect_size", "entropy_bits", "footprint_cells", "gini", "holm",
-           "improvement", "iqm", "mean", "median_interval", "overlap_ratio", "paired", "sign_flip_p", "t_interval"]
+           "improvement", "iqm", "mean", "mean_interval", "median_interval", "overlap_ratio", "paired", "sign_flip_p",
+           "t_interval"]

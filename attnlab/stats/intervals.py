@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from attnlab.stats.seeds import Interval, resampled
+
 Floats = npt.NDArray[np.float64]
 
 
@@ -41,6 +43,13 @@ def t_interval(values: npt.ArrayLike, reference: float = 0.0, confidence: float 
     return Ends(mean, mean - reach, mean + reach, p)
 
 
+def mean_interval(values: npt.ArrayLike, confidence: float = 0.95) -> Interval:
+    """The mean of one sample of shape (n,) with its t interval; missing values are left out."""
+    kept = np.asarray(values, float)
+    value, low, high, _ = t_interval(kept[~np.isnan(kept)], confidence=confidence)
+    return Interval(float(value), float(low), float(high))
+
+
 def median_interval(values: npt.ArrayLike, reference: float = 0.0, confidence: float = 0.95) -> Ends:
     """Median with the exact interval between two order statistics, and the sign test's p (twice the smaller tail).
 
@@ -68,8 +77,6 @@ def bca_interval(values: npt.ArrayLike, confidence: float = 0.95, resamples: int
     """Bias-corrected and accelerated bootstrap interval of a mean (Efron 1987) of one sample of shape (n,); (nan, nan)
     under two values. Seeded; values that are all the same have an interval of no width."""
     from scipy.stats import norm
-
-    from attnlab.stats.seeds import resampled
     x = np.asarray(values, float)
     n = x.size
     if n < 2:

@@ -5,13 +5,14 @@ import re
 import pytest
 from small_study import write_run
 
-from attnlab.report.forest import Row, first_screen, interval, rows_of, sentences
+from attnlab.report.forest import Row, first_screen, rows_of, sentences
 from attnlab.results.load import load
+from attnlab.stats import mean_interval
 
 
 def row(name, *values):
     seeds = dict(enumerate(values))
-    return Row(name, seeds, interval(values))
+    return Row(name, seeds, mean_interval(values))
 
 
 def test_two_conditions_are_compared_by_seed():
