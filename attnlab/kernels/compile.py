@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 from numba import njit
-from numba.core import sigutils
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -23,8 +22,7 @@ def is_kept(signature: str, function: Callable[..., Any], **options: Any) -> boo
     """Is the function, compiled for this signature, in numba's disk cache? It is not where no cache can be kept."""
     try:
         lazy = njit(cache=True, **options)(function)
-        arguments, _ = sigutils.normalize_signature(signature)  # type: ignore[no-untyped-call]
-        return lazy._cache.load_overload(arguments, lazy.targetctx) is not None
+        return lazy._cache.load_overload(signature, lazy.targetctx) is not None  # kept under what it was asked by
     except (RuntimeError, OSError):
         return False
 
