@@ -95,7 +95,7 @@ def shares(found: Multiverse) -> Figure:
 def leading(found: Multiverse) -> int:
     """The measure whose curve gets the dashboard: the most clearly told from chance."""
     p = found.joint.p_family if found.joint is not None else np.ones(len(found.measures))
-    return min(range(len(found.measures)), key=lambda m: (p[m], -abs(float(np.median(found.effects[:, m])))))
+    return min(range(len(found.measures)), key=lambda m: (p[m], -abs(float(np.nanmedian(found.effects[:, m])))))
 
 
 def sections(found: Multiverse) -> list[Section]:
@@ -110,7 +110,7 @@ def _statements(found: Multiverse) -> Section:
         j = found.joint
         numbers = ["-"] * 4 if j is None else [f"{j.clear[m]:.0f}", f"{j.opposite[m]:.0f}", _p(j.p[m]),
                                               _p(j.p_family[m])]
-        rows.append([measure.title, found.statement(m), f"{float(np.median(found.effects[:, m])):+.2f}", *numbers,
+        rows.append([measure.title, found.statement(m), f"{float(np.nanmedian(found.effects[:, m])):+.2f}", *numbers,
                      f"{mover.split(' + ')[0]} ({100 * share:.0f} %)"])
     seeds = found.differences.shape[-1]
     how = "no joint test: the readings share fewer than two seeds" if found.joint is None else \
@@ -121,7 +121,7 @@ def _statements(found: Multiverse) -> Section:
             + table(("measure", "statement", "median d", "clear as claimed", "clear opposite", "joint p",
                      "p of all measures", "moved most by (share of variance)"), rows, range(2, 7))
             + "<p class=small>The readings are a fixed design: nothing is inferred over them. Joint test: the labels "
-            f"of a whole seed are exchanged in every reading at once ({how}); the statistic is the median effect; p of "
+            f"of a whole seed are exchanged in every reading at once ({how}); the statistic is the mean effect; p of "
             "all measures is corrected by max-T. Every effect with its interval: curve.csv; this table: joint.csv.</p>")
     return Section("curve", "Which statements are robust", html)
 

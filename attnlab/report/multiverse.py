@@ -74,8 +74,8 @@ class Multiverse:
     def statement(self, measure: int) -> str:
         """What kind of statement a measure makes: robust, hangs on a factor, or not told from chance."""
         effects = self.effects[:, measure]
-        side = np.sign(np.median(effects))
-        agree = float((np.sign(effects) == side).mean())
+        side = np.sign(np.nanmedian(effects))
+        agree = float((np.sign(effects[~np.isnan(effects)]) == side).mean())
         factor, share = self.mover(measure)
         if share >= HANGS:
             return f"hangs on {factor}"
