@@ -78,14 +78,15 @@ class Attention:
     """The clock of one behaviour and what it learns.
 
     ``due`` is the cycle of the next activation, ``period`` the one in force (machine cycles), ``command`` the motor
-    command held, or None.
+    command held, or None. ``clamp``: index of the curiosity level that the state has where nothing is learned, -1 for
+    the level there is.
     """
     command: tuple[float, float] | None
 
     def __init__(self, behaviour: Behaviour, periods: Sequence[int], curiosity: Curiosity, learner: Learner,
-                 reading: Reading, draw: Random):
+                 reading: Reading, draw: Random, clamp: int = -1):
         self.behaviour, self.curiosity, self.learner, self.reading = behaviour, curiosity, learner, reading
-        self.periods, self.draw, self.bins = list(periods), draw, reading.percept_bins
+        self.periods, self.draw, self.bins, self.clamp = list(periods), draw, reading.percept_bins, clamp
         self._terms = [period_term(p, min(periods), max(periods)) if max(periods) > min(periods) else 0.0
                        for p in periods]
         self._first = self.periods.index(min(periods))
@@ -118,7 +119,7 @@ class Attention:
         percept = percept_bin(sigma, behaviour.sigma_low, behaviour.sigma_high, self.bins)
         wanting = self.wanting = curiosity.wanting(memory, now.body.energy)
         liking = self.liking = curiosity.liking(memory, percept)
-        level = curiosity.level(wanting, liking)
+        level = curiosity.level(wanting, liking) if learning or self.clamp < 0 else self.clamp
         state = self._row_levels[level] + self.action * self.bins + percept
         action = learner.decide(state, exploration, self.draw) if self._choose_first else -1
         reward = extrinsic = None

@@ -14,7 +14,7 @@ from attnlab import registry
 from attnlab.errors import ConfigError, nearest
 from attnlab.groups import GROUPS
 from attnlab.reading import Reading
-from attnlab.settings import build, cosmetics, hints_of, setting
+from attnlab.settings import build, cosmetics, hints_of, setting, without_late
 from attnlab.worlds.base import Layout
 
 
@@ -22,6 +22,9 @@ from attnlab.worlds.base import Layout
 class ValidationSettings:
     simulator: str | None = setting(None, "validate on another simulator than the one trained on")
     drive: Literal["kinematic", "wheels"] | None = setting(None, "drive of the pybullet that validates")
+    clamp_level: Literal["none", "low", "LH", "HH"] = setting(
+        "none", "hold everybody's curiosity level in the state at this one, whatever is wanted and liked: what was "
+        "learned for that level acts", late=True)
 
 
 @dataclass
@@ -82,6 +85,7 @@ class RunSettings:
 
 
 COSMETIC = cosmetics(RunSettings)
+_LATE = {"reading": Reading, "validation": ValidationSettings}
 LONGEST_NAME = 240  # bytes: a file's name has 255 at most, and a study may be copied as NAME_pybullet
 _layouts: dict[str, Layout] = {}
 
@@ -143,8 +147,14 @@ def no_such_setting(path: str) -> ConfigError:
 
 def run_key(config: Mapping[str, Any]) -> str:
     """Ten hex digits of everything in a config that can change a number; a group of which nothing is chosen cannot."""
-    kept = {key: value for key, value in config.items() if key not in COSMETIC and (value != {} or key == "reading")}
+    kept = {key: value for key, value in that_count(config).items() if value != {} or key == "reading"}
     return hashlib.sha256(json.dumps(kept, sort_keys=True, default=str).encode()).hexdigest()[:10]
+
+
+def that_count(config: Mapping[str, Any]) -> dict[str, Any]:
+    """What of a config can change a number: all but cosmetic settings, and late ones that are not set."""
+    return {key: without_late(_LATE[key], value) if key in _LATE else value for key, value in config.items()
+            if key not in COSMETIC}
 
 
 def reading_of(settings: RunSettings) -> Reading:

@@ -21,10 +21,14 @@ class Litman(Curiosity):
         return Window(self.reading.novelty_window, self.bins)
 
     def liking(self, memory: Window, percept: int) -> float:
-        r, visits = self.reading, memory.visits[percept]
-        if r.novelty_counts_current:  # it pushes the oldest out of a full window
+        return liking(self.seen(memory, percept), self.reading.novelty_window)
+
+    def seen(self, memory: Window, percept: int) -> int:
+        """NV of eq (12): how many of the NV_tot observations are this percept."""
+        visits = memory.visits[percept]
+        if self.reading.novelty_counts_current:  # it pushes the oldest out of a full window
             visits += 0 if memory.oldest() == percept else 1
-        return liking(visits, r.novelty_window)
+        return visits
 
     def observe(self, memory: Window, percept: int) -> None:
         memory.add(percept)

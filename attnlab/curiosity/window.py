@@ -10,6 +10,14 @@ class Window:
         self.last, self.at = [-1] * length, 0  # a ring: at ``at`` the oldest, -1 while it is not full
         self.visits = [0] * bins
 
+    def clear(self) -> None:
+        """Forget all."""
+        for i in range(len(self.last)):
+            self.last[i] = -1
+        for i in range(len(self.visits)):
+            self.visits[i] = 0
+        self.at = 0
+
     def oldest(self) -> int:
         """The one that the next pushes out; -1 if there is room."""
         return self.last[self.at]

@@ -15,6 +15,25 @@ from attnlab.registry import register
 from attnlab.settings import setting
 
 
+class Looks:
+    """How many looks each of those who share a budget has taken in this episode, after its first: ``taken[place]``."""
+
+    def __init__(self) -> None:
+        self.taken: list[int] = []
+
+    def join(self) -> int:
+        """One more shares it; its place."""
+        self.taken.append(0)
+        return len(self.taken) - 1
+
+    def together(self) -> int:
+        """Of all."""
+        looks = 0
+        for taken in self.taken:
+            looks += taken
+        return looks
+
+
 @register("learner", "capped")
 class Capped(Learner):
     """Another learner that may not look more often than a budget allows, ours: the behaviours of a robot share
@@ -35,23 +54,32 @@ class Capped(Learner):
     params: Params
 
     def __init__(self, params: Params, context: LearnerContext):
+        self.inner: Learner = _made(params.of, context)  # before the rest: its tables are ours
         super().__init__(params, context)
-        name = params.of if isinstance(params.of, str) else str(dict(params.of or {}).get("name"))
-        spec = registry.find("learner", name)
-        if spec is None:
-            raise registry.unknown("learner", name, "learner.of")
-        if spec.cls is Capped or spec.cls.prepare.__func__ is not Learner.prepare.__func__:  # type: ignore[attr-defined]
-            raise ConfigError("learner.of", f"{name} cannot be capped")
-        own = params.of if isinstance(params.of, Mapping) else {}
-        self.inner: Learner = registry.make("learner", {**spec.nodes()[name], **own}, context, "learner.of")
         self.learns, self.on_policy = self.inner.learns, self.inner.on_policy
         self.needs_between = self.inner.needs_between
-        self.q, self.visits = self.inner.q, self.inner.visits
         self._a_cycle = params.looks_per_s * context.reading.dt_s
         self._rising = sorted(range(self.actions), key=lambda action: context.periods[action])
         self._begun = False
         self._now = 0
-        context.shared.setdefault("taken", {})
+        self._looks: Looks = context.shared.setdefault("looks", Looks())
+        self._place = self._looks.join()
+
+    @property
+    def q(self) -> list[list[float]]:
+        return self.inner.q
+
+    @q.setter
+    def q(self, _: list[list[float]]) -> None:
+        """Every learner is given one; this one has the other's."""
+
+    @property
+    def visits(self) -> list[list[int]]:
+        return self.inner.visits
+
+    @visits.setter
+    def visits(self, _: list[list[int]]) -> None:
+        """The same."""
 
     def values(self, state: int) -> list[float]:
         return self.inner.values(state)
@@ -59,21 +87,19 @@ class Capped(Learner):
     def start(self) -> None:
         self.inner.start()
         self._begun, self._now = False, 0
-        self.context.shared["taken"][self.context.behaviour] = 0
+        self._looks.taken[self._place] = 0
 
     def decide(self, state: int, exploration: Exploration, draw: Random) -> int:
-        c, taken = self.context, self.context.shared["taken"]
+        periods = self.context.periods
         if self._begun:
-            self._now += c.periods[state // c.bins % len(c.periods)]
-            taken[c.behaviour] = taken.get(c.behaviour, 0) + 1
+            self._now += periods[state // self.context.bins % len(periods)]
+            self._looks.taken[self._place] += 1
         self._begun = True
         wanted = self.inner.decide(state, exploration, draw)
-        looks = 1
-        for others in taken.values():
-            looks += others
+        looks = 1 + self._looks.together()
         for action in self._rising:
-            period = c.periods[action]
-            if period >= c.periods[wanted] and looks <= self._a_cycle * (self._now + period) + 1e-9:
+            period = periods[action]
+            if period >= periods[wanted] and looks <= self._a_cycle * (self._now + period) + 1e-9:
                 return action
         return self._rising[-1]
 
@@ -85,3 +111,16 @@ class Capped(Learner):
 
     def watched(self, path: Sequence[int], rewards: Sequence[float], ended: bool) -> None:
         self.inner.watched(path, rewards, ended)
+
+
+def _made(of: Any, context: LearnerContext) -> Learner:
+    """The learner that the setting names. Raises ConfigError."""
+    name = of if isinstance(of, str) else str(dict(of or {}).get("name"))
+    spec = registry.find("learner", name)
+    if spec is None:
+        raise registry.unknown("learner", name, "learner.of")
+    if spec.cls is Capped or spec.cls.prepare.__func__ is not Learner.prepare.__func__:  # type: ignore[attr-defined]
+        raise ConfigError("learner.of", f"{name} cannot be capped")
+    own = of if isinstance(of, Mapping) else {}
+    made: Learner = registry.make("learner", {**spec.nodes()[name], **own}, context, "learner.of")
+    return made

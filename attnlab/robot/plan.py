@@ -12,6 +12,7 @@ from attnlab import registry
 from attnlab.attention import Attention
 from attnlab.callbacks.base import Callback
 from attnlab.config import RunSettings, layout_of, reading_of
+from attnlab.curiosity.base import Curiosity
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
@@ -127,6 +128,7 @@ class RunPlan:
         chosen = learner or {**s.learner, **self.found}
         making = self.making()
         curiosity = registry.make("curiosity", s.curiosity, making.context("curiosity", s.curiosity["name"]))
+        clamp = -1 if learner else self._clamp(curiosity)  # candidates that are tried before the run have none
         attentions, own_needs = [], []
         for name, node in s.behaviours.items():
             behaviour = registry.make("behaviours", node, making.context("behaviours", name), f"behaviours.{name}")
@@ -135,11 +137,21 @@ class RunPlan:
             of_it = dataclasses.replace(making, levels=curiosity.levels, behaviour=name)
             learns = registry.make("learner", chosen, of_it.context("learner", name))
             attentions.append(Attention(behaviour, s.periods, curiosity, learns, r,
-                                        stream(s.seed, "exploration", name)))
+                                        stream(s.seed, "exploration", name), clamp))
         body = registry.make("needs", s.needs, r).body(own_needs)
         fusion = registry.make("fusion", s.fusion, r)
         penalty = registry.make("penalty", {"name": r.penalised}, r, "reading.penalised")
         return Agent(attentions, body, simulator, fusion, penalty, r.max_cycles)
+
+    def _clamp(self, curiosity: Curiosity) -> int:
+        """Index of the level that validation is held at; -1 if it is not."""
+        level = self.settings.validation.clamp_level
+        if level == "none":
+            return -1
+        if level not in curiosity.levels:
+            raise ConfigError("validation.clamp_level", f"is {level}, and curiosity={curiosity.name} has no such level",
+                              f"It has {', '.join(curiosity.levels)}")
+        return curiosity.levels.index(level)
 
     def parts_alone(self) -> Agent:
         """The robot without a world, for those who only ask its parts."""

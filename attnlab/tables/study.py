@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from attnlab.config import COSMETIC
+from attnlab.config import that_count
 from attnlab.tables.files import read_json, write_json
 from attnlab.tables.lock import locked
 from attnlab.tables.naming import Naming, name_all
@@ -115,7 +115,7 @@ def condition_key(config: Mapping[str, Any]) -> str:
 
 def condition_config(config: Mapping[str, Any]) -> dict[str, Any]:
     """A run's config without its seed, cosmetic settings and empty groups."""
-    return {name: value for name, value in config.items() if name not in COSMETIC and name != "seed" and value != {}}
+    return {name: value for name, value in that_count(config).items() if name != "seed" and value != {}}
 
 
 def read_study(folder: Path) -> StudyFile | None:

@@ -16,7 +16,7 @@ from attnlab.testing.digest import digest
 GOLDEN = Path(__file__).with_name("golden.json")
 CURIOSITIES = ("none", "additive", "composed", "count", "habituation", "information_gap", "learning_progress",
                "litman_gap", "litman_itti", "novelty_decay", "novelty_window", "optimal_arousal", "prediction_error",
-               "salience", "surprise", "surprise_poisson", "surprise_reverse")
+               "random_wanting", "salience", "shuffled_liking", "surprise", "surprise_poisson", "surprise_reverse")
 LEARNERS = ("sarsa", "expected_sarsa", "double_q", "q_lambda", "monitor", "fixed_4", "random", "always_on")
 EXPLORATIONS = ("epsilon_greedy", "greedy", "ucb1", "annealed")
 READINGS = {"safety_distance": {"crash": "safety_distance"}, "same_states": {"non_curious": "same_states"},
@@ -30,6 +30,8 @@ RUNS = {
     **{f"exploration={name}": config(exploration=name, max_cycles=500) for name in EXPLORATIONS},
     **{f"reading={name}": config(how=how, curiosity="none" if name == "same_states" else "litman", max_cycles=500)
        for name, how in READINGS.items()},
+    "learner=capped": config(learner={"name": "capped", "looks_per_s": 2.4}, max_cycles=500),
+    "validation.clamp_level=HH": config(validation={"clamp_level": "HH"}, max_cycles=500),
     "fusion=mean": config(fusion="mean", max_cycles=500),
     "behaviours=avoid,wander,rest": config(behaviours=("avoid", "wander", "rest"), max_cycles=500),
     "simulator=scripted": config(simulator="scripted", behaviours=("give",), needs="energy_only"),
