@@ -13,6 +13,7 @@ from attnlab.measures.once import once_a_study
 from attnlab.stats import bootstrap_band
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -122,12 +123,18 @@ def band(ax: Axes, x: np.ndarray, values: np.ndarray, line: Line, label: bool = 
 
 
 @once_a_study
+def _of_behaviour(conditions: Conditions, table: str, phase: str, behaviour: str | None) -> dict[str, pd.DataFrame]:
+    """Run -> its rows of a phase, of all behaviours or of one."""
+    rows = phase_rows(conditions, table, phase)
+    return split(rows if behaviour is None else rows[rows["behaviour"] == behaviour])
+
+
+@once_a_study
 def _series(conditions: Conditions, table: str, column: str, phase: str, behaviour: str | None
             ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Run -> (episodes, values of a column in them)."""
-    rows = phase_rows(conditions, table, phase)
-    rows = rows if behaviour is None else rows[rows["behaviour"] == behaviour]
-    return {run: (mine["episode"].to_numpy(), mine[column].to_numpy(float)) for run, mine in split(rows).items()}
+    rows = _of_behaviour(conditions, table, phase, behaviour)
+    return {run: (mine["episode"].to_numpy(), mine[column].to_numpy(float)) for run, mine in rows.items()}
 
 
 def by_episode(runs: Runs, table: str, column: str, block: int, phase: str = "train", behaviour: str | None = None

@@ -2,7 +2,7 @@
 
     python -m attnlab.report outputs/cr_vs_ncr
 
-This module is light; pandas, scipy and seaborn are imported when something is drawn.
+This module is light; pandas, scipy and matplotlib are imported when something is drawn.
 """
 
 from __future__ import annotations

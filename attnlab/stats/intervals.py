@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from attnlab.stats.seeds import Interval, resampled
+from attnlab.stats.tails import coin, normal_below, normal_quantile, t_above, t_quantile
 
 Floats = npt.NDArray[np.float64]
 
@@ -26,7 +27,6 @@ class Ends(NamedTuple):
 
 def t_interval(values: npt.ArrayLike, reference: float = 0.0, confidence: float = 0.95) -> Ends:
     """Mean with Student's t interval, and the t test's p. Values that are all the same have an interval of no width."""
-    from scipy.stats import t as student
     x = np.asarray(values, float)
     n = x.shape[-1]
     mean = x.mean(axis=-1) if n else np.full(x.shape[:-1], np.nan)
@@ -35,10 +35,10 @@ def t_interval(values: npt.ArrayLike, reference: float = 0.0, confidence: float 
         return Ends(mean, nothing, nothing, nothing)
     error = x.std(axis=-1, ddof=1) / np.sqrt(n)
     error = np.where(error < 1e-12 * np.maximum(1.0, abs(x).max(axis=-1)), 0.0, error)
-    reach = float(student.ppf((1 + confidence) / 2, n - 1)) * error
+    reach = float(t_quantile((1 + confidence) / 2, n - 1)) * error
     shift = mean - reference
     with np.errstate(invalid="ignore", divide="ignore"):
-        p = 2 * student.sf(abs(shift) / error, n - 1)
+        p = 2 * t_above(abs(shift) / error, n - 1)
     p = np.where(error > 0, p, np.where(abs(shift) < 1e-12, 1.0, 0.0))
     return Ends(mean, mean - reach, mean + reach, p)
 
@@ -56,27 +56,32 @@ def median_interval(values: npt.ArrayLike, reference: float = 0.0, confidence: f
     ``values`` may be inf: a time that was not reached before watching ended. With one end of watching for all, this is
     the median of Kaplan and Meier's (1958) curve. Ends are -inf and inf where n is too small for the confidence.
     """
-    from scipy.stats import binom
     x = np.sort(np.asarray(values, float), axis=-1)
     n = x.shape[-1]
     middle = np.where(x[..., (n - 1) // 2] == x[..., n // 2], x[..., n // 2],  # inf - inf is nothing
                       (x[..., (n - 1) // 2] + x[..., n // 2]) / 2)
-    place = int(binom.ppf((1 - confidence) / 2, n, 0.5))  # the k-th smallest and largest with P(fewer) within the tail
-    if binom.cdf(place - 1, n, 0.5) > (1 - confidence) / 2 or place < 1:
-        place -= 1
+    tail = (1 - confidence) / 2
+    place = int(np.searchsorted(coin(n), tail))  # the k-th smallest and largest with P(fewer) within the tail
     low = x[..., place - 1] if place >= 1 else np.full(middle.shape, -np.inf)
     high = x[..., n - place] if place >= 1 else np.full(middle.shape, np.inf)
     below, above = (x < reference).sum(axis=-1), (x > reference).sum(axis=-1)
-    fewer = np.minimum(below, above)
-    p = np.minimum(1.0, 2 * binom.cdf(fewer, below + above, 0.5))
+    p = np.minimum(1.0, 2 * _at_most(np.minimum(below, above), below + above))
     return Ends(middle, low, high, p)
+
+
+def _at_most(heads: npt.ArrayLike, tosses: npt.ArrayLike) -> Floats:
+    """P(at most so many heads in so many tosses of a fair coin), in the arrays' shape."""
+    k, n = np.asarray(heads), np.asarray(tosses)
+    found = np.empty(n.shape)
+    for of in np.unique(n):
+        found[n == of] = coin(int(of))[k[n == of]]
+    return found
 
 
 def bca_interval(values: npt.ArrayLike, confidence: float = 0.95, resamples: int = 4000, seed: int = 0
                  ) -> tuple[float, float]:
     """Bias-corrected and accelerated bootstrap interval of a mean (Efron 1987) of one sample of shape (n,); (nan, nan)
     under two values. Seeded; values that are all the same have an interval of no width."""
-    from scipy.stats import norm
     x = np.asarray(values, float)
     n = x.size
     if n < 2:
@@ -86,13 +91,13 @@ def bca_interval(values: npt.ArrayLike, confidence: float = 0.95, resamples: int
         return mean, mean
     drawn = np.sort(x[resampled(n, resamples, seed)].mean(axis=1))
     below = (np.sum(drawn < mean) + np.sum(drawn == mean) / 2) / resamples
-    bias = norm.ppf(np.clip(below, 1 / (resamples + 1), 1 - 1 / (resamples + 1)))
+    bias = normal_quantile(np.clip(below, 1 / (resamples + 1), 1 - 1 / (resamples + 1)))
     away = (x.sum() - x) / (n - 1)  # means that leave one out
     away = away.mean() - away
     squares = float((away ** 2).sum())
     acceleration = float((away ** 3).sum()) / (6 * squares ** 1.5) if squares > 0 else 0.0
-    z = bias + norm.ppf([(1 - confidence) / 2, (1 + confidence) / 2])
-    low, high = np.quantile(drawn, norm.cdf(bias + z / (1 - acceleration * z)))
+    z = bias + normal_quantile([(1 - confidence) / 2, (1 + confidence) / 2])
+    low, high = np.quantile(drawn, normal_below(bias + z / (1 - acceleration * z)))
     return float(low), float(high)
 
 

@@ -28,9 +28,14 @@ def mean(values: npt.ArrayLike) -> float:
 
 def iqm(values: npt.ArrayLike) -> float:
     """Interquartile mean: the mean of the middle half (Agarwal et al. 2021), scipy's 25 % trimmed mean."""
-    from scipy.stats import trim_mean
     kept = _kept(values)
-    return float(trim_mean(kept, 0.25)) if kept.size else float("nan")
+    return float(_middle(kept).mean()) if kept.size else float("nan")
+
+
+def _middle(values: Floats) -> Floats:
+    """The values of the last axis without the lowest and the highest quarter (rounded down)."""
+    n = values.shape[-1]
+    return np.partition(values, (n // 4, n - n // 4 - 1))[..., n // 4:n - n // 4]
 
 
 @lru_cache(maxsize=64)
@@ -42,13 +47,12 @@ def resampled(n: int, resamples: int, seed: int) -> npt.NDArray[np.int64]:
 def bootstrap_interval(values: npt.ArrayLike, statistic: str = "mean", confidence: float = 0.95,
                        resamples: int = RESAMPLES, seed: int = 0) -> Interval:
     """Percentile bootstrap interval of the ``mean`` or ``iqm`` over seeds; missing values are left out."""
-    from scipy.stats import trim_mean
     kept = _kept(values)
     value = iqm(kept) if statistic == "iqm" else mean(kept)
     if kept.size < 2:
         return Interval(value, float("nan"), float("nan"))
     samples = kept[resampled(kept.size, resamples, seed)]
-    drawn = trim_mean(samples, 0.25, axis=1) if statistic == "iqm" else samples.mean(axis=1)
+    drawn = (_middle(samples) if statistic == "iqm" else samples).mean(axis=1)
     tail = (1 - confidence) / 2
     low, high = np.quantile(drawn, [tail, 1 - tail])
     return Interval(value, float(low), float(high))
@@ -76,7 +80,8 @@ def bootstrap_band(values: npt.ArrayLike, confidence: float = 0.95, resamples: i
     low, high = nothing.copy(), nothing.copy()
     some = count >= 2
     if some.any():
-        low[some], high[some] = np.nanquantile(drawn[:, some], [tail, 1 - tail], axis=0)
+        quantile = np.nanquantile if np.isnan(drawn[:, some]).any() else np.quantile  # the same, several times faster
+        low[some], high[some] = quantile(drawn[:, some], [tail, 1 - tail], axis=0)
     return centre, low, high
 
 
@@ -102,11 +107,8 @@ def effect_size(values: npt.ArrayLike, reference: float = 0.0) -> float:
 
 def improvement(treatment: npt.ArrayLike, control: npt.ArrayLike) -> float:
     """Probability of improvement: that a treatment run beats a control run, ties half (Mann-Whitney U / nm)."""
-    from scipy.stats import mannwhitneyu
-    a, b = _kept(treatment), _kept(control)
-    if not a.size or not b.size:
-        return float("nan")
-    return float(mannwhitneyu(a, b).statistic / (a.size * b.size))
+    a, b = _kept(treatment)[:, None], _kept(control)
+    return float((a > b).mean() + (a == b).mean() / 2) if a.size and b.size else float("nan")
 
 
 def holm(p_values: npt.ArrayLike) -> Floats:

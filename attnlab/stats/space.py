@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import log
+
 import numpy as np
 import numpy.typing as npt
 
@@ -14,19 +16,21 @@ def coverage(x_cells: npt.ArrayLike, y_cells: npt.ArrayLike, shape: tuple[int, i
 def footprint_cells(visits: npt.ArrayLike, radius_m: float, cell_m: float) -> npt.NDArray[np.bool_]:
     """Cells touched by a round footprint of ``radius_m`` around the visited cells' middles; booleans like ``visits``
     of shape (cells along x, cells along y)."""
-    from scipy.ndimage import binary_dilation
     reach = int(np.ceil(radius_m / cell_m))
-    i, j = np.mgrid[-reach:reach + 1, -reach:reach + 1]
-    disc = np.hypot(i, j) * cell_m <= radius_m + 1e-9
-    touched: npt.NDArray[np.bool_] = binary_dilation(np.asarray(visits) > 0, structure=disc)
+    around = range(-reach, reach + 1)
+    visited: npt.NDArray[np.bool_] = np.pad(np.asarray(visits) > 0, reach)
+    nx, ny = np.shape(visits)
+    touched = np.zeros((nx, ny), bool)
+    for i, j in ((i, j) for i in around for j in around if (i * i + j * j) ** 0.5 * cell_m <= radius_m + 1e-9):
+        touched |= visited[reach + i:reach + i + nx, reach + j:reach + j + ny]
     return touched
 
 
 def entropy_bits(visits: npt.ArrayLike) -> float:
     """Shannon entropy of a visit map in bits: log2(n) if n cells are visited equally often, 0 if only one is."""
-    from scipy.stats import entropy
+    from scipy.special import entr
     counts = np.asarray(visits, float).ravel()
-    return float(entropy(counts, base=2)) if counts.sum() > 0 else float("nan")
+    return float(entr(counts / counts.sum()).sum() / log(2)) if counts.sum() > 0 else float("nan")
 
 
 def gini(visits: npt.ArrayLike) -> float:

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from attnlab.arithmetic import total
+from attnlab.stats.tails import t_quantile
 
 Floats = npt.NDArray[np.float64]
 EXACT = 4096  # sign patterns counted one by one, up to 12 seeds; more are drawn
@@ -102,9 +103,8 @@ def joint_test(differences: npt.ArrayLike, confidence: float = 0.95, draws: int 
 
 def clear_from(x: Floats, confidence: float = 0.95) -> Floats:
     """How large a standardised effect must be for its t interval to leave 0 out, by the seeds that have a value."""
-    from scipy.stats import t as student
     count = (~np.isnan(x)).sum(axis=-1)
-    reach = student.ppf((1 + confidence) / 2, np.maximum(count - 1, 1)) / np.sqrt(np.maximum(count, 1))
+    reach = t_quantile((1 + confidence) / 2, np.maximum(count - 1, 1)) / np.sqrt(np.maximum(count, 1))
     return np.where(count >= LEAST_VALUES, reach, np.nan)
 
 

@@ -10,8 +10,10 @@ from math import pi
 from random import Random
 from typing import Any
 
+import numpy as np
+
 from attnlab.errors import ConfigError
-from attnlab.worlds.geometry import Solid, clearance
+from attnlab.worlds.geometry import Solid, clearance, clearances
 
 WALL_M = 0.1  # thickness of the walls around an arena, outside of its floor
 GRID_M = 0.05  # of the search for free starts
@@ -35,11 +37,12 @@ class Layout:
         """Points of a 0.05 m grid over the start region that are clear of every solid."""
         x_min, x_max, y_min, y_max = self.start
         nx, ny = (max(1, round((high - low) / GRID_M)) for low, high in ((x_min, x_max), (y_min, y_max)))
+        row = np.empty((ny + 1, 2))
+        row[:, 1] = y_min + (y_max - y_min) * np.arange(ny + 1) / ny
         for i in range(nx + 1):
-            for j in range(ny + 1):
-                x, y = x_min + (x_max - x_min) * i / nx, y_min + (y_max - y_min) * j / ny
-                if clearance(x, y, self.solids) >= self.start_clearance_m:
-                    yield x, y
+            row[:, 0] = x = x_min + (x_max - x_min) * i / nx
+            for y in row[clearances(row, self.solids) >= self.start_clearance_m, 1].tolist():
+                yield x, y
 
     def random_start(self, draw: Random) -> tuple[float, float, float]:
         """A free pose (x m, y m, heading rad): uniform over the start region less what is too near to a solid.
