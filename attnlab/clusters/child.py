@@ -38,7 +38,7 @@ def context_for(jobs: Sequence[Job]) -> Context:
     context = multiprocessing.get_context("forkserver")
     compiled = any(job.engine is not None and job.engine.name == "compiled" for job in jobs)
     planar = any(job.config["simulator"].get("name") == "planar" for job in jobs)
-    heavy = ["attnlab.compiled.engine"] if compiled else ["attnlab.kernels.planar"] if planar else []
+    heavy = ["attnlab.kernels.planar"] * planar + ["attnlab.compiled.engine", "attnlab.compiled.summary"] * compiled
     context.set_forkserver_preload(["attnlab.launch.preload", *heavy])
     try:
         forkserver.ensure_running()

@@ -33,13 +33,14 @@ class Compiled:
     after an episode those have what the recorder reads, after :meth:`finish` all of it.
 
     Raises :class:`Uncompilable`. ``explorations``: those that will be used, compiled at once. With ``only_kept``
-    nothing is compiled: ``is_there`` says whether the code was on the disk.
+    nothing is compiled: ``is_there`` says whether the code was on the disk. ``looks``: the tables of all logs, in the
+    order of the behaviours.
     """
 
     def __init__(self, agent: Agent, explorations: list[Exploration], only_kept: bool = False):
-        for attention in agent.attentions:
-            attention.log.table = np.zeros((agent.max_cycles + 1, len(Activation._fields)))
-            attention.log.rows = 0
+        self.looks = np.zeros((len(agent.attentions), agent.max_cycles + 1, len(Activation._fields)))
+        for attention, table in zip(agent.attentions, self.looks, strict=True):
+            attention.log.table, attention.log.rows = table, 0
         agent.history.table = np.zeros((agent.max_cycles + 2, 3 + len(agent.body.needs)))
         agent.history.rows = 0
         agent.body.larder.reserve(len(agent.simulator.layout.solids))

@@ -13,6 +13,7 @@ from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
 from attnlab.robot.episode import run_episode
 from attnlab.robot.plan import RunPlan
+from attnlab.robot.quick import Quick, quick
 
 EPISODES = 3  # that both engines play before one is trusted
 LOOKS_CYCLES = 300_000  # below, Python is done before it is known whether there is compiled code
@@ -73,13 +74,15 @@ def build(plan: RunPlan, only_kept: bool = False) -> bool:
         simulator.close()
 
 
-def player(engine: str, agent: Agent, explorations: list[Exploration]) -> tuple[Play, Callable[[], None]]:
-    """What plays an episode, and what is called when the last was played."""
+def player(engine: str, agent: Agent, explorations: list[Exploration]
+           ) -> tuple[Play, Quick | None, Callable[[], None]]:
+    """What plays an episode, what says of it what the tables want in compiled code (None if numpy has to), and what is
+    called when the last was played."""
     if engine == "python":
-        return run_episode, lambda: None
+        return run_episode, None, lambda: None
     from attnlab.compiled.engine import Compiled
     compiled = Compiled(agent, explorations)
-    return compiled, compiled.finish
+    return compiled, quick(agent, compiled.looks), compiled.finish
 
 
 def differs(plan: RunPlan) -> str:
@@ -91,7 +94,7 @@ def differs(plan: RunPlan) -> str:
         try:
             agent = plan.agent(simulator)
             explorations = [plan.exploration(phase) for phase in ("train", "validation")]
-            play, finish = player(engine, agent, explorations)
+            play, _, finish = player(engine, agent, explorations)
             seen.append([])
             for episode in range(EPISODES):
                 last = episode == EPISODES - 1

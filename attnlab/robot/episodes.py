@@ -36,7 +36,7 @@ def play_run(plan: RunPlan, run: str = "run", swept: Mapping[str, Any] | None = 
     try:
         agent = plan.agent(simulator)
         explorations = {phase: plan.exploration(phase) for phase, _ in phases}
-        play_episode, finish = player(engine, agent, list(explorations.values()))
+        play_episode, quick, finish = player(engine, agent, list(explorations.values()))
         for index, (phase, episodes) in enumerate(phases):
             exploration = explorations[phase]
             learning = phase == "train"
@@ -49,7 +49,7 @@ def play_run(plan: RunPlan, run: str = "run", swept: Mapping[str, Any] | None = 
                 outcome = play_episode(agent, exploration, plan.start_pose(phase, episode), learning)
                 full = (s.record == "all" or (s.record == "validation" and phase == "validation")
                         or (s.record == "last" and index == last and episode == episodes - 1))
-                recorder.episode(agent, phase, episode, *outcome, full)
+                recorder.episode(agent, phase, episode, *outcome, full, quick)
                 done, cycles = done + 1, cycles + simulator.cycle
                 if progress:
                     progress(done, cycles)

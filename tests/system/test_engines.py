@@ -119,7 +119,7 @@ def test_what_raises_compiled_is_played_again(tmp_path, monkeypatch):
     def breaks(engine, agent, explorations):
         def play(*_):
             raise ZeroDivisionError("division by zero")
-        return (play if engine == "compiled" else run_episode), lambda: None
+        return (play if engine == "compiled" else run_episode), None, lambda: None
     monkeypatch.setattr("attnlab.robot.episodes.player", breaks)
     info = {"run": "a", "key": "k", "overrides": [], "swept": {}, "engine": ("compiled", "so")}
     assert run_to_folder(config(max_cycles=60), tmp_path / "a", info)
