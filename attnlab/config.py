@@ -85,7 +85,7 @@ class RunSettings:
 
 
 COSMETIC = cosmetics(RunSettings)
-_LATE = {"reading": Reading, "validation": ValidationSettings}
+_LATE: dict[str, type] = {"reading": Reading, "validation": ValidationSettings}
 LONGEST_NAME = 240  # bytes: a file's name has 255 at most, and a study may be copied as NAME_pybullet
 _layouts: dict[str, Layout] = {}
 
@@ -153,8 +153,15 @@ def run_key(config: Mapping[str, Any]) -> str:
 
 def that_count(config: Mapping[str, Any]) -> dict[str, Any]:
     """What of a config can change a number: all but cosmetic settings, and late ones that are not set."""
-    return {key: without_late(_LATE[key], value) if key in _LATE else value for key, value in config.items()
-            if key not in COSMETIC}
+    return {key: without_late(_settings_of(key, value), value) for key, value in config.items() if key not in COSMETIC}
+
+
+def _settings_of(name: str, node: Any) -> type | None:
+    """The dataclass of what a config has under this name: reading, validation, or the part chosen of a group."""
+    if name in _LATE or not isinstance(node, Mapping):
+        return _LATE.get(name)
+    spec = registry.parts.get((name, str(node.get("part") or node.get("name"))))
+    return spec.params if spec else None
 
 
 def reading_of(settings: RunSettings) -> Reading:

@@ -66,6 +66,10 @@ class Reading:
     novelty_window: int = setting(10, "NV_tot of eq 12, observations", unit="observations", low=1, high=100_000)
     novelty_persists: bool = setting(False, "keep the novelty window from one episode to the next")
     novelty_counts_current: bool = setting(False, "count the current percept among the NV_tot observations")
+    novelty_over: Literal["percept", "state"] = setting(
+        "percept", "whose visits NV counts in curiosity=litman and none: the percept's, as eq 12 is written, or the "
+        "state's, as its text says: percept and whether w > 0 (ours; LH and HH are told apart by the novelty itself)",
+        late=True)
     non_curious: Literal["plain", "same_states"] = setting(
         "plain", "curiosity=none: no curiosity in the state (plain), or w = 0 with the states of the curious robot "
         "(same_states, an ablation)")
@@ -99,6 +103,9 @@ class Reading:
         "random", "a random free pose each episode (from the seed), or the same one always")
     validation_exploration: Literal["greedy", "softmax"] = setting(
         "greedy", "how actions are chosen in validation episodes")
+    tie_break: Literal["first", "last", "random"] = setting(
+        "first", "which of equal values greedy validation takes, in a state never seen, say: the shortest period "
+        "(first, ours), the longest (last), or one at random (from the behaviour's stream of choices)", late=True)
 
     def __post_init__(self) -> None:
         if self.energy_well >= self.energy_max:

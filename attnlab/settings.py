@@ -27,7 +27,7 @@ def setting(default: Any, doc: str, *, unit: str = "", low: float | None = None,
             above: float | None = None, cosmetic: bool = False, late: bool = False) -> Any:
     """A dataclass field with its meaning, unit and range (``low``/``high`` inclusive, ``above`` exclusive).
     ``cosmetic``: it changes no number of a run. ``late``: at its default a run is what it was before there was this
-    setting, so that it is in no key (of ``reading`` and ``validation`` alone)."""
+    setting, so that it is in no key (of ``reading``, ``validation``, and parts of which there is one)."""
     meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "cosmetic": cosmetic, "late": late}
     if isinstance(default, (list, dict)) or dataclasses.is_dataclass(default):
         return dataclasses.field(default_factory=lambda: copy.copy(default), metadata=meta)
@@ -39,8 +39,10 @@ def cosmetics(cls: type) -> frozenset[str]:
     return frozenset(field.name for field in dataclasses.fields(cls) if field.metadata.get("cosmetic"))
 
 
-def without_late(cls: type, node: Any) -> Any:
-    """The settings of dataclass ``cls`` in a config, without late ones that are at their defaults."""
+def without_late(cls: type | None, node: Any) -> Any:
+    """The settings of dataclass ``cls``, if there is one, in a config, without late ones that are at their defaults."""
+    if cls is None:
+        return node
     late = {field.name: field.default for field in dataclasses.fields(cls) if field.metadata.get("late")}
     return {name: value for name, value in node.items() if name not in late or value != late[name]} \
         if isinstance(node, Mapping) else node

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from random import Random
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from attnlab import registry
@@ -35,13 +36,14 @@ class View:
 
 
 class Replayed:
-    """The senses of a robot that is shown what it saw; sonars are read in the run's world at the recorded pose."""
+    """The senses of a robot that is shown what it saw; sonars are read in the run's world at the recorded pose, and of
+    the body the energy is known."""
 
     def __init__(self, simulator: Any = None):
         self.simulator, self.cycle = simulator, 0
 
     def show(self, view: View) -> None:
-        self.view, self.cycle = view, view.cycle
+        self.view, self.cycle, self.body = view, view.cycle, SimpleNamespace(energy=view.energy)
 
     def ring(self) -> list[float]:
         from attnlab.simulators.robot import centre_distances

@@ -8,13 +8,14 @@ from attnlab.curiosity.base import Curiosity, CuriosityContext
 from attnlab.curiosity.litman import Litman
 from attnlab.curiosity.window import Window
 from attnlab.registry import register
+from attnlab.simulators.base import Surroundings
 
 
 class Urge:
     """What a behaviour remembers: the ``window`` of its last percepts, and its ``wanting`` at the next look."""
 
-    def __init__(self, length: int, bins: int):
-        self.window, self.wanting = Window(length, bins), 0.5
+    def __init__(self, window: Window):
+        self.window, self.wanting = window, 0.5
 
 
 @register("curiosity", "random_wanting")
@@ -30,8 +31,12 @@ class RandomWanting(Curiosity):
         super().__init__(params, context)
         self._novelty = Litman(params, context)
 
+    def attach(self, now: Surroundings) -> None:
+        self.now = now
+        self._novelty.attach(now)
+
     def memory(self) -> Urge:
-        return Urge(self.reading.novelty_window, self.bins)
+        return Urge(self._novelty.memory())
 
     def wanting(self, memory: Urge, energy: float) -> float:
         return memory.wanting

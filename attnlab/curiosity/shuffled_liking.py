@@ -9,6 +9,7 @@ from attnlab.curiosity.litman import Litman
 from attnlab.curiosity.window import Window
 from attnlab.equations import liking
 from attnlab.registry import register
+from attnlab.simulators.base import Surroundings
 
 
 class Past:
@@ -16,8 +17,8 @@ class Past:
     NV_tot observations when it was seen (and so how often its liking was 1 - n / NV_tot), and the ``drawn`` one of
     these n."""
 
-    def __init__(self, length: int, bins: int):
-        self.window, self.counts, self.drawn = Window(length, bins), [0] * (length + 1), 0
+    def __init__(self, window: Window):
+        self.window, self.counts, self.drawn = window, [0] * (len(window.last) + 1), 0
 
 
 @register("curiosity", "shuffled_liking")
@@ -36,8 +37,12 @@ class ShuffledLiking(Curiosity):
         self._forgets = not self.reading.novelty_persists
         self.persists = True  # the past does; the window is cleared here
 
+    def attach(self, now: Surroundings) -> None:
+        self.now = now
+        self._novelty.attach(now)
+
     def memory(self) -> Past:
-        return Past(self.reading.novelty_window, self.bins)
+        return Past(self._novelty.memory())
 
     def liking(self, memory: Past, percept: int) -> float:
         return liking(memory.drawn, self.reading.novelty_window)

@@ -22,8 +22,18 @@ from attnlab.tables.study import FILE, Condition, grow
 
 def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
     """Run a study; 0 if all of it is complete now, 1 if a run failed. ``typed``: the arguments that asked for it."""
-    settings = jobs[0].settings
-    todo, done, reasons, old = split(jobs, settings.fresh)
+    settings, folder = jobs[0].settings, jobs[0].folder.parent
+    failed = complete(jobs, typed)
+    _show(folder, jobs, settings, typed)
+    if failed:
+        print(f"{len(failed)} of {len(jobs)} runs failed; the traceback is in run.json of each. The same command runs "
+              "them again.", file=sys.stderr)
+    return 1 if failed else 0
+
+
+def complete(jobs: Sequence[Job], typed: Sequence[str]) -> list[tuple[Job, str]]:
+    """Run what is missing of a study; the runs that failed now, and why."""
+    todo, done, reasons, old = split(jobs, jobs[0].settings.fresh)
     engines.prepare(todo)
     _ask(jobs, typed)
     folder = jobs[0].folder.parent
@@ -38,12 +48,7 @@ def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
         print(f"mind: {len(old)} of the complete runs were {OTHER_CODE} than this ({code()['version']} "
               f"{code()['hash']}); numbers of both would stand side by side. fresh=true makes all of them anew.",
               file=sys.stderr)
-    failed = _run(todo, folder) if todo else []
-    _show(folder, jobs, settings, typed)
-    if failed:
-        print(f"{len(failed)} of {len(jobs)} runs failed; the traceback is in run.json of each. The same command runs "
-              "them again.", file=sys.stderr)
-    return 1 if failed else 0
+    return _run(todo, folder) if todo else []
 
 
 def _ask(jobs: Sequence[Job], typed: Sequence[str]) -> None:

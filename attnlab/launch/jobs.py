@@ -8,9 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from attnlab.claims import claims_mark
+from attnlab.claims.files import load_claims
 from attnlab.config import RunSettings, run_key
 from attnlab.errors import ConfigError
 from attnlab.loading import plugin_hashes
+from attnlab.registry import make
 from attnlab.results.states import state_of
 from attnlab.robot.engines import Choice
 from attnlab.robot.plan import RunPlan
@@ -94,6 +97,16 @@ def check_different(jobs: Sequence[Job]) -> None:
                 where = f"variants.{mine}" if name == "variant" else f"{name}={mine}"
                 raise ConfigError(where, f"is the same as {theirs}: its runs would be made twice", "Leave one out")
         raise ConfigError("-m", f"asks twice for the run {job.run}", "Name each value once")
+
+
+def check_once(jobs: Sequence[Job]) -> None:
+    """What is the same for all jobs of a command: the cluster, and the claims file, whose mark they keep."""
+    settings = jobs[0].settings
+    make("cluster", settings.cluster, None).check()
+    load_claims(settings.claims_file)
+    claims = claims_mark(settings.claims_file)
+    for job in jobs:
+        job.claims = claims
 
 
 def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[str, int], list[Job]]:

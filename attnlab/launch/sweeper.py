@@ -6,12 +6,10 @@ as usual and no other Hydra application is touched.
 
 from __future__ import annotations
 
-import itertools
 import sys
 import types
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
 from hydra.core.config_search_path import ConfigSearchPath
 from hydra.core.config_store import ConfigStore
@@ -22,19 +20,17 @@ from hydra.plugins.sweeper import Sweeper
 from hydra.types import HydraContext, TaskFunction
 from omegaconf import DictConfig, OmegaConf
 
-from attnlab.claims import claims_mark
-from attnlab.claims.files import load_claims
 from attnlab.config import COSMETIC
 from attnlab.errors import ConfigError
 from attnlab.groups import GROUPS
 from attnlab.launch.compose import Composer
 from attnlab.launch.door import MOST_RUNS, Door
-from attnlab.launch.jobs import Job, check_different, condition_of, make_job
+from attnlab.launch.expand import Expansion, choices, name_of
+from attnlab.launch.jobs import Job, check_once
+from attnlab.launch.pilots import UndecidedError, sound
 from attnlab.launch.place import check_place
-from attnlab.launch.variants import as_override, read_variants
+from attnlab.launch.variants import read_design, read_variants
 from attnlab.loading import config_folders
-from attnlab.registry import make
-from attnlab.robot.plan import RunPlan
 from attnlab.tables.ranges import RANGED, seeds
 
 NAMESPACE = "hydra_plugins.attnlab"
@@ -56,7 +52,12 @@ class StudySweeper(Sweeper):
 
     def sweep(self, arguments: list[str]) -> None:
         from attnlab.launch.drive import drive
-        jobs = self.jobs(arguments)
+        try:
+            jobs = self.jobs(arguments)
+        except UndecidedError as cause:
+            print(cause, file=sys.stderr)
+            type(self).folder, type(self).exit_code = cause.folder, 1
+            return
         check_place(jobs)
         type(self).folder = jobs[0].folder.parent
         type(self).exit_code = drive(jobs, arguments)
@@ -65,30 +66,17 @@ class StudySweeper(Sweeper):
         """All jobs of the sweep, checked."""
         composer, door = Composer(self.loader, self.master), Door(self.loader)
         merged = self._merged(door, arguments)
-        swept = [_name(override) for override in merged.values() if override.is_sweep_override()]
-        for name in sorted(name for name in swept if name.partition(".")[0] in COSMETIC):
+        expansion = Expansion(composer, door, merged)
+        for name in sorted(name for name in expansion.swept if name.partition(".")[0] in COSMETIC):
             raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
         _check_size(merged.values())
         node = self.master.variants
-        variants = read_variants(OmegaConf.to_container(node) if OmegaConf.is_config(node) else node)
-        for together in variants.values():
-            for key, value in together.items():
-                door.check_setting(key, value)
-        jobs: list[Job] = []
-        for typed in itertools.product(*(_choices(o) for key, o in merged.items() if key != "seed")):
-            for variant, together in variants.items():
-                # What is swept or typed for one of a variant's settings gives way: the variant is what is compared.
-                overrides = [o for o in typed if _key(o) not in together]
-                overrides += [f"{key}={as_override(value)}" for key, value in together.items()]
-                values = {key: _value(overrides, key) for key in swept if key != "seed" and key not in together}
-                named = list(values)
-                if variant is not None:
-                    values.update({"variant": variant, **{key: _shown(value) for key, value in together.items()}})
-                    named.append("variant")
-                jobs += _of_condition(composer.config(overrides), overrides, values, named, merged.get("seed"))
-        check_different(jobs)
-        _check_once(jobs)
-        _check_added(composer, [choices[0] for choices in map(_choices, merged.values())])
+        node = OmegaConf.to_container(node) if OmegaConf.is_config(node) else node
+        _check_added(composer, [of[0] for of in map(choices, merged.values())])
+        design = read_design(node)
+        jobs = expansion.jobs(read_variants(node) if design is None or design.pilot is None else
+                              design.variants(sound(design, expansion, arguments)))
+        check_once(jobs)
         return jobs
 
     def _merged(self, door: Door, arguments: Sequence[str]) -> dict[str, Override]:
@@ -99,22 +87,10 @@ class StudySweeper(Sweeper):
             params.append(f"{key}={text}")
         merged: dict[str, Override] = {}
         for override in (*door.check(door.in_place(params)), *door.parsed(arguments)):
-            name = _name(override)
+            name = name_of(override)
             several = override.is_add() and name in GROUPS and GROUPS[name].chosen == "list"  # +behaviours=rest
             merged[str(override.input_line) if several else name] = override
         return merged
-
-
-def _of_condition(config: dict[str, Any], overrides: list[str], values: dict[str, Any], named: list[str],
-                  seed: Override | None) -> Iterator[Job]:
-    """The jobs of a condition, one a seed; its config is checked once, its world for every seed."""
-    condition = condition_of(config, values, overrides)
-    numbers = [config["seed"]] if seed is None else [int(o.partition("=")[2]) for o in _choices(seed)]
-    plan = None
-    for number in numbers:
-        plan = RunPlan({**config, "seed": number}) if plan is None else plan.with_seed(number)
-        more = [] if seed is None else [f"seed={number}"]
-        yield make_job(plan, [*overrides, *more], values, named, condition)
 
 
 def _check_added(composer: Composer, overrides: Sequence[str]) -> None:
@@ -129,16 +105,6 @@ def _check_added(composer: Composer, overrides: Sequence[str]) -> None:
             raise ConfigError(group, f"has '{added}' already, so that +{group}={added} adds nothing", "Leave it out")
 
 
-def _check_once(jobs: Sequence[Job]) -> None:
-    """What is the same for all jobs of a command: the cluster, and the claims file, whose mark they keep."""
-    settings = jobs[0].settings
-    make("cluster", settings.cluster, None).check()
-    load_claims(settings.claims_file)
-    claims = claims_mark(settings.claims_file)
-    for job in jobs:
-        job.claims = claims
-
-
 def _check_size(overrides: Iterable[Override]) -> None:
     count = 1
     for override in overrides:
@@ -149,33 +115,6 @@ def _check_size(overrides: Iterable[Override]) -> None:
                               "List them: a,b,c")
     if count > MOST_RUNS:
         raise ConfigError("-m", f"this sweep has {count:,} runs, more than {MOST_RUNS:,}")
-
-
-def _choices(override: Override) -> list[str]:
-    """An override as a list of plain ones."""
-    key = override.get_key_element()
-    if override.is_sweep_override():
-        return [f"{key}={value}" for value in override.sweep_string_iterator()]
-    return [f"{key}={override.get_value_element_as_str()}" if not override.is_delete() else str(override.input_line)]
-
-
-def _name(override: Override) -> str:
-    return str(override.get_key_element().lstrip("+~"))
-
-
-def _key(override: str) -> str:
-    return override.partition("=")[0].lstrip("+~")
-
-
-def _value(overrides: Sequence[str], key: str) -> Any:
-    import yaml
-    text = next(o.partition("=")[2] for o in overrides if _key(o) == key)
-    value = yaml.safe_load(text) if text[:1] not in "[{" else text
-    return _shown(value) if value is not None else text
-
-
-def _shown(value: Any) -> Any:
-    return value if isinstance(value, (int, float, bool, str)) else str(value)
 
 
 class PluginFolders(SearchPathPlugin):

@@ -193,7 +193,7 @@ class RunPlan:
         """How actions are chosen in this phase (train | validation)."""
         node = self.settings.exploration
         if phase == "validation" and self.reading.validation_exploration == "greedy":
-            node = {"name": "greedy"}
+            node = {"name": "greedy", "ties": self.reading.tie_break}
         chosen: Exploration = registry.make("exploration", node, None)
         return chosen
 
