@@ -25,4 +25,7 @@ def length(x: float, y: float) -> float:
 
 def distance(one: Sequence[float], other: Sequence[float]) -> float:
     """Between two points of as many coordinates."""
-    return sqrt(total((a - b) * (a - b) for a, b in zip(one, other, strict=True)))
+    found = 0.0
+    for i, a in enumerate(one):
+        found += (a - other[i]) * (a - other[i])
+    return sqrt(found)

@@ -57,7 +57,9 @@ def _load(context: Any, builder: Any, of: Reference, value: Any, name: str) -> A
 
 def _array(context: Any, builder: Any, kind: types.Array, address: Any, shape: list[Any]) -> Any:
     made, item = arrayobj.make_array(kind)(context, builder), ir.Constant(INTEGER, 8)
-    strides = [builder.mul(shape[1], item), item] if kind.ndim == 2 else [item]
+    strides = [item]
+    for extent in shape[:0:-1]:
+        strides.insert(0, builder.mul(extent, strides[0]))
     arrayobj.populate_array(made, data=builder.inttoptr(address, made.data.type), shape=shape, strides=strides,
                             itemsize=item, meminfo=None)
     return made._getvalue()

@@ -3,11 +3,12 @@ simulator. They do the same, and the tests of both engines say so."""
 
 from __future__ import annotations
 
+import operator
 from math import nan, sqrt
 from random import Random
 
 from numba import types
-from numba.extending import overload_method
+from numba.extending import lower_builtin, overload_method
 
 from attnlab.attention import Log
 from attnlab.behaviours.base import RobotSenses
@@ -176,3 +177,15 @@ def _index(values, value):
                 return i
         raise ValueError("this is not in it")
     return index
+
+
+def _power(context, builder, signature, args):
+    """A float to a whole power is C's pow, as Python has it, rounded once; numba multiplies, rounding each time."""
+    exponent = context.cast(builder, args[1], signature.args[1], types.float64)
+    of = signature.replace(args=(types.float64, types.float64))
+    return context.get_function(operator.pow, of)(builder, (args[0], exponent))
+
+
+for _whole in (types.int64, types.IntegerLiteral):
+    lower_builtin(operator.pow, types.float64, _whole)(_power)
+    lower_builtin(operator.ipow, types.float64, _whole)(_power)

@@ -17,10 +17,8 @@ from attnlab.compiled.words import WORD, code
 from attnlab.curiosity.base import Curiosity
 from attnlab.worlds.base import Layout as WorldLayout
 
-FLOATS, FLOATS2 = (types.Array(types.float64, n, "C") for n in (1, 2))
-WHOLES, WHOLES2 = (types.Array(types.int64, n, "C") for n in (1, 2))
-ARRAYS = {(np.dtype(np.float64), 1): FLOATS, (np.dtype(np.float64), 2): FLOATS2,
-          (np.dtype(np.int64), 1): WHOLES, (np.dtype(np.int64), 2): WHOLES2}
+ARRAYS = {(np.dtype(str(of)), n): types.Array(of, n, "C") for of in (types.float64, types.int64) for n in (1, 2, 3)}
+FLOATS, WHOLES = (ARRAYS[np.dtype(of), 1] for of in (np.float64, np.int64))
 EMPTY: dict[Any, types.Type] = {list[int]: WHOLES, list[float]: FLOATS}
 PAIRS = (tuple[float, float] | None,)
 Fields = dict[str, tuple[types.Type, Any]]  # name -> (kind, value)
@@ -37,6 +35,7 @@ class Memory:
         self._kinds: dict[str, Reference] = {}
         self._slots: dict[int, np.ndarray] = {}
         self._arrays: dict[tuple[int, str], np.ndarray] = {}
+        self._lists: dict[int, tuple[list[Any], np.ndarray]] = {}  # by id: a list that several hold is one array
         self._placed: dict[int, tuple[Any, Reference]] = {}
         self._keep: list[Any] = []
         self._open: set[int] = set()  # being described
@@ -81,9 +80,9 @@ class Memory:
                 setattr(thing, name, bool(slots[at]))
             elif of == PAIR:
                 setattr(thing, name, tuple(slots.view(np.float64)[at + 1:at + 3].tolist()) if slots[at] else None)
-            elif isinstance(of, types.Array) and isinstance(getattr(thing, name), list) and \
-                    not are(getattr(thing, name), str):
-                getattr(thing, name)[:] = self._arrays[id(thing), name].tolist()
+            elif isinstance(of, types.Array) and isinstance(held := getattr(thing, name), list) and not are(held, str):
+                found = self._arrays[id(thing), name]
+                held[:] = (found != 0 if are(held, bool) else found).tolist()
 
     def pull_all(self) -> None:
         """Every object as it is in memory now."""
@@ -145,16 +144,17 @@ class Memory:
     def _kind_of_list(self, value: Any) -> types.Type:
         if not len(value):
             raise _Unfit("an empty list, of nobody knows what")
-        if are(value, int) or are(value, str):
+        if are(value, int) or are(value, bool) or are(value, str):
             return WHOLES
         if all(type(item) in (int, float) for item in value):
             return FLOATS
-        if are(value, list) and len({len(row) for row in value}) == 1 and value[0]:
-            inner = {self._kind_of_list(row) for row in value}
-            if inner == {WHOLES} and not are(value[0], str):
-                return WHOLES2
-            if inner <= {FLOATS, WHOLES} and FLOATS in inner:
-                return FLOATS2
+        if are(value, list) and all(value) and len({len(row) for row in value}) == 1 and not are(value[0], str):
+            inner = [self._kind_of_list(row) for row in value]
+            dims = {kind.ndim if isinstance(kind, types.Array) else 0 for kind in inner}
+            broken = any(isinstance(kind, types.Array) and kind.dtype is types.float64 for kind in inner)
+            of = np.dtype(np.float64 if broken else np.int64)
+            if len(dims) == 1 and (of, 1 + max(dims)) in ARRAYS and 0 not in dims:
+                return ARRAYS[of, 1 + max(dims)]
         if all(type(item).__module__.split(".")[0] == "attnlab" and not isinstance(item, tuple) for item in value):
             kinds = self._merge(value)
             return Row(kinds[0] if len(kinds) == 1 else one_of(kinds))
@@ -218,7 +218,9 @@ class Memory:
         """A list's array, the same one whenever it is written."""
         found = np.array([code(word) for word in value] if are(value, str) else value,
                          np.float64 if of.dtype is types.float64 else np.int64)
-        kept = self._arrays.setdefault((id(thing), name), found)
+        if (id(thing), name) not in self._arrays:
+            self._arrays[id(thing), name] = self._lists.setdefault(id(value), (value, found))[1]
+        kept = self._arrays[id(thing), name]
         kept[...] = found
         return kept
 

@@ -57,6 +57,13 @@ class Over(Curiosity):
         return self.signal.mix(extrinsic, liking, wanting)
 
 
+@dataclass
+class Both:
+    """The memory of the model that wants and that of the one that likes."""
+    wants: Any
+    likes: Any
+
+
 @register("curiosity", "composed", presets={"litman_itti": {"liking": "surprise"}})
 class Composed(Curiosity):
     """Wanting, liking, level and mixing rule, each from the model named for it (any registered one, with settings of
@@ -66,7 +73,6 @@ class Composed(Curiosity):
     The memory holds one memory for the wanting and one for the liking; they are the same if both are the same model.
     ``persists`` is the liking's. Draws what its models draw.
     """
-    interpreted = "it takes methods from other models"
 
     @dataclass
     class Params:
@@ -84,28 +90,31 @@ class Composed(Curiosity):
             node = getattr(params, aspect)
             model = next((m for n, m in made if n == node), None) or component(node, context, f"curiosity.{aspect}")
             made.append((node, model))
-        self._models = [model for _, model in made]
-        self._wants, self._likes, levels, mixes = self._models
-        self.levels, self.persists = levels.levels, self._likes.persists
-        self.level = levels.level  # type: ignore[method-assign]  # called on every activation: no detour
-        self.mix = mixes.mix  # type: ignore[method-assign]  # the same
+        self._wants, self._likes, self._judges, self._mixes = (model for _, model in made)
+        self.levels, self.persists = self._judges.levels, self._likes.persists
         self._one = self._wants is self._likes
 
     def attach(self, now: Surroundings) -> None:
-        for model in self._models:
+        for model in (self._wants, self._likes, self._judges, self._mixes):
             model.attach(now)
 
-    def memory(self) -> tuple[Any, Any]:
+    def memory(self) -> Both:
         wants = self._wants.memory()
-        return wants, wants if self._one else self._likes.memory()
+        return Both(wants, wants if self._one else self._likes.memory())
 
-    def wanting(self, memory: tuple[Any, Any], energy: float) -> float:
-        return self._wants.wanting(memory[0], energy)
+    def wanting(self, memory: Both, energy: float) -> float:
+        return self._wants.wanting(memory.wants, energy)
 
-    def liking(self, memory: tuple[Any, Any], percept: int) -> float:
-        return self._likes.liking(memory[1], percept)
+    def liking(self, memory: Both, percept: int) -> float:
+        return self._likes.liking(memory.likes, percept)
 
-    def observe(self, memory: tuple[Any, Any], percept: int) -> None:
-        self._likes.observe(memory[1], percept)
+    def observe(self, memory: Both, percept: int) -> None:
+        self._likes.observe(memory.likes, percept)
         if not self._one:
-            self._wants.observe(memory[0], percept)
+            self._wants.observe(memory.wants, percept)
+
+    def level(self, wanting: float, liking: float) -> int:
+        return self._judges.level(wanting, liking)
+
+    def mix(self, extrinsic: float, liking: float, wanting: float) -> float:
+        return self._mixes.mix(extrinsic, liking, wanting)

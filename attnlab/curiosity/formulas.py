@@ -33,8 +33,11 @@ def lgamma(x: float) -> float:
 
 def entropy(weights: Sequence[float]) -> float:
     """H of the distribution proportional to ``weights`` (nats)."""
-    whole = total(weights)
-    return -total(w / whole * log(w / whole) for w in weights if w > 0)
+    whole, found = total(weights), 0.0
+    for w in weights:
+        if w > 0:
+            found += w / whole * log(w / whole)
+    return -found
 
 
 def dirichlet_surprise(a: Sequence[float], i: int, direction: str) -> float:

@@ -2,28 +2,40 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from math import exp
+from dataclasses import dataclass
+from math import exp, inf
 
 from attnlab.arithmetic import distance
 from attnlab.curiosity.base import Curiosity
 from attnlab.registry import register
 from attnlab.settings import setting
+from attnlab.simulators.robot import SONARS
 
 
-@dataclass
 class Units:
-    """Prototypes of the sonar ring (16 numbers in [0, 1] each) and how fresh each still is (1 new, towards 0)."""
-    weights: list[list[float]] = field(default_factory=list)
-    fresh: list[float] = field(default_factory=list)
+    """Prototypes of the sonar ring (16 numbers in [0, 1] each) and how fresh each still is (1 new, towards 0): ``n`` of
+    them, then room."""
+
+    def __init__(self, room: int):
+        self.n = 0
+        self.weights = [[0.0] * len(SONARS) for _ in range(room)]
+        self.fresh = [0.0] * room
 
     def winner(self, view: list[float]) -> tuple[int, float]:
         """(index, activity exp(-||x - w||)) of the nearest unit; (-1, 0) if there is none."""
-        if not self.weights:
-            return -1, 0.0
-        distances = [distance(view, w) for w in self.weights]
-        nearest = min(distances)
-        return distances.index(nearest), exp(-nearest)
+        nearest, least = -1, inf
+        for i in range(self.n):
+            away = distance(view, self.weights[i])
+            if away < least:
+                nearest, least = i, away
+        return nearest, exp(-least)
+
+    def grow(self, weights: list[float]) -> int:
+        """A new unit; its index."""
+        self.weights[self.n][:] = weights
+        self.fresh[self.n] = 1.0
+        self.n += 1
+        return self.n - 1
 
 
 @register("curiosity", "habituation")
@@ -38,7 +50,6 @@ class Habituation(Curiosity):
     is new: liking 1, and a unit grows halfway between. At ``units`` units growth stops. Reads the sonars; ignores the
     percept. Draws nothing at random.
     """
-    interpreted = "its units grow"
 
     @dataclass
     class Params:
@@ -54,7 +65,7 @@ class Habituation(Curiosity):
     params: Params
 
     def memory(self) -> Units:
-        return Units()
+        return Units(self.params.units)
 
     def _view(self) -> list[float]:
         reach = self.params.range_m
@@ -63,7 +74,7 @@ class Habituation(Curiosity):
     def _is_new(self, memory: Units, winner: int, activity: float) -> bool:
         p = self.params
         return winner < 0 or (activity < p.activity and memory.fresh[winner] < p.habituated
-                              and len(memory.weights) < p.units)
+                              and memory.n < p.units)
 
     def liking(self, memory: Units, percept: int) -> float:
         winner, activity = memory.winner(self._view())
@@ -73,10 +84,8 @@ class Habituation(Curiosity):
         view, p = self._view(), self.params
         winner, activity = memory.winner(view)
         if self._is_new(memory, winner, activity):
-            old = memory.weights[winner] if winner >= 0 else view
-            memory.weights.append([(x + w) / 2 for x, w in zip(view, old, strict=True)])
-            memory.fresh.append(1.0)
-            winner = len(memory.fresh) - 1
+            winner = memory.grow([(x + memory.weights[winner][i]) / 2 if winner >= 0 else x
+                                  for i, x in enumerate(view)])
         fresh, unit = memory.fresh[winner], memory.weights[winner]
         for i, x in enumerate(view):
             unit[i] += p.rate * fresh * (x - unit[i])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from attnlab.curiosity.formulas import entropy, squash
-from attnlab.curiosity.litman_gap import LitmanGap, Memory
+from attnlab.curiosity.litman_gap import Beliefs, LitmanGap
 from attnlab.registry import register
 from attnlab.settings import setting
 
@@ -24,14 +24,13 @@ class InformationGap(LitmanGap):
 
     params: Params
 
-    def reduction(self, memory: Memory, percept: int) -> float:
+    def reduction(self, memory: Beliefs, percept: int) -> float:
         """H(a) - H(a'), nats; negative for a percept that makes the model less sure."""
-        beliefs, window = memory
-        after = beliefs.copy()
+        after, leaves = memory.a.copy(), memory.window.oldest()
         after[percept] += 1.0
-        if len(window) == self.params.length:
-            after[window[0]] -= 1.0
-        return entropy(beliefs) - entropy(after)
+        if leaves >= 0:
+            after[leaves] -= 1.0
+        return entropy(memory.a) - entropy(after)
 
-    def liking(self, memory: Memory, percept: int) -> float:
+    def liking(self, memory: Beliefs, percept: int) -> float:
         return squash(self.reduction(memory, percept), self.params.scale)

@@ -10,7 +10,13 @@ from attnlab.curiosity.prediction_error import Transitions, unknowing
 from attnlab.registry import register
 from attnlab.settings import setting
 
-Memory = tuple[Transitions, list[list[float]]]  # the model, the errors of each cell
+
+@dataclass
+class Memory:
+    """The model, and the last errors of each cell, the oldest first: as many as are ``known``, then room."""
+    model: Transitions
+    errors: list[list[float]]
+    known: list[int]
 
 
 @register("curiosity", "learning_progress")
@@ -20,9 +26,8 @@ class LearningProgress(Curiosity):
     - <e>(t)), at most 1 (gain and limit are ours), where <e> is the mean of ``window`` errors.
 
     One history of errors for each percept (a cell of the sensory space): that of predicting what followed it. What is
-    known and what cannot be known are both boring. Memory: (transitions, errors by cell). Draws nothing at random.
+    known and what cannot be known are both boring. Memory: :class:`Memory`. Draws nothing at random.
     """
-    interpreted = "its memory is a pair of lists that grow"
 
     @dataclass
     class Params:
@@ -35,7 +40,8 @@ class LearningProgress(Curiosity):
     params: Params
 
     def memory(self) -> Memory:
-        return unknowing(self.bins), [[] for _ in range(self.bins)]
+        room = self.params.window + self.params.delay
+        return Memory(unknowing(self.bins), [[0.0] * room for _ in range(self.bins)], [0] * self.bins)
 
     def progress(self, errors: list[float]) -> float:
         """<e>(t - delay) - <e>(t) of one cell; 0 until there are window + delay errors."""
@@ -46,13 +52,15 @@ class LearningProgress(Curiosity):
         return (total(then) - total(errors[-p.window:])) / p.window
 
     def liking(self, memory: Memory, percept: int) -> float:
-        return min(1.0, max(0.0, self.params.gain * self.progress(memory[1][percept])))
+        return min(1.0, max(0.0, self.params.gain * self.progress(memory.errors[percept][:memory.known[percept]])))
 
     def observe(self, memory: Memory, percept: int) -> None:
-        model, cells = memory
-        if model.last >= 0:
-            errors = cells[model.last]
-            errors.append(model.error(percept))
-            if len(errors) > self.params.window + self.params.delay:
-                errors.pop(0)
+        model, cell = memory.model, memory.model.last
+        if cell >= 0:
+            errors = memory.errors[cell]
+            if memory.known[cell] == len(errors):
+                errors[:-1] = errors[1:]
+            else:
+                memory.known[cell] += 1
+            errors[memory.known[cell] - 1] = model.error(percept)
         model.learn(percept, self.params.rate)

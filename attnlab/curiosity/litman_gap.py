@@ -7,11 +7,17 @@ from math import log
 
 from attnlab.curiosity.base import HH, LH, LOW, Curiosity, CuriosityContext
 from attnlab.curiosity.formulas import entropy
+from attnlab.curiosity.window import Window
 from attnlab.equations import liking
 from attnlab.registry import register
 from attnlab.settings import setting
 
-Memory = tuple[list[float], list[int]]  # a, the window
+
+@dataclass
+class Beliefs:
+    """a_i, the views of each percept in the window and before any."""
+    a: list[float]
+    window: Window
 
 
 @register("curiosity", "litman_gap")
@@ -20,10 +26,9 @@ class LitmanGap(Curiosity):
 
     Wanting is the entropy of the percept model over its maximum, H(a)/ln n with a_i = prior + views of i in the last
     ``length`` percepts: 1 when nothing is known, less the better the next percept is known. Liking is eq (12) over the
-    same window. Wanting is high above ``high_wanting``. Memory: [a, the window]. The entropy and its threshold are
+    same window. Wanting is high above ``high_wanting``. Memory: :class:`Beliefs`. The entropy and its threshold are
     ours. Draws nothing at random.
     """
-    interpreted = "its memory is a pair of lists"
     levels = (LOW, LH, HH)
 
     @dataclass
@@ -40,18 +45,18 @@ class LitmanGap(Curiosity):
         self.high_wanting = params.high_wanting
         self._most = log(context.bins) if context.bins > 1 else 1.0
 
-    def memory(self) -> Memory:
-        return [self.params.prior] * self.bins, []
+    def memory(self) -> Beliefs:
+        return Beliefs([self.params.prior] * self.bins, Window(self.params.length, self.bins))
 
-    def wanting(self, memory: Memory, energy: float) -> float:
-        return min(1.0, entropy(memory[0]) / self._most)
+    def wanting(self, memory: Beliefs, energy: float) -> float:
+        return min(1.0, entropy(memory.a) / self._most)
 
-    def liking(self, memory: Memory, percept: int) -> float:
-        return liking(memory[1].count(percept), self.params.length)
+    def liking(self, memory: Beliefs, percept: int) -> float:
+        return liking(memory.window.visits[percept], self.params.length)
 
-    def observe(self, memory: Memory, percept: int) -> None:
-        beliefs, window = memory
-        window.append(percept)
-        beliefs[percept] += 1.0
-        if len(window) > self.params.length:
-            beliefs[window.pop(0)] -= 1.0
+    def observe(self, memory: Beliefs, percept: int) -> None:
+        leaves = memory.window.oldest()
+        memory.a[percept] += 1.0
+        if leaves >= 0:
+            memory.a[leaves] -= 1.0
+        memory.window.add(percept)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 
 from attnlab.fusion.base import Clocked, Fusion
 from attnlab.reading import Reading
@@ -30,21 +31,24 @@ class Contention(Fusion):
     def __init__(self, params: Params, reading: Reading):
         super().__init__(params, reading)
         self._clocks: Sequence[Clocked] = ()
+        self._top_down: list[float] = []
 
     def attach(self, clocks: Sequence[Clocked]) -> None:
         self._clocks = clocks
+        self._top_down = [self.params.top_down.get(clock.behaviour.name, 0.0) for clock in clocks]
 
     def fuse(self, commands: list[tuple[float, float]]) -> tuple[float, float]:
         if not commands:
             return 0.0, 0.0
         r = self.reading
-        holding = [clock for clock in self._clocks if clock.command is not None]
-        given = self.params.top_down
-        emphasis = [given.get(clock.behaviour.name, 0.0) + 1.0 / clock.period for clock in holding]
-        if len(emphasis) != len(commands):  # nobody is attached: the order decides
-            emphasis = [0.0] * len(commands)
-        speed = max(((e, -i) for i, e in enumerate(emphasis) if commands[i][0] < r.v_max_m_s), default=None)
-        turn = max(((e, -i) for i, e in enumerate(emphasis) if commands[i][1] != 0.0), default=None)
-        v = r.v_max_m_s if speed is None else commands[-speed[1]][0]
-        w = 0.0 if turn is None else commands[-turn[1]][1]
+        emphasis = [self._top_down[i] + 1.0 / clock.period for i, clock in enumerate(self._clocks)
+                    if clock.command is not None]
+        attached = len(emphasis) == len(commands)  # otherwise the order decides
+        v, w, driving, turning = r.v_max_m_s, 0.0, -inf, -inf
+        for i, (speed, turn) in enumerate(commands):
+            mine = emphasis[i] if attached else 0.0
+            if speed < r.v_max_m_s and mine > driving:
+                v, driving = speed, mine
+            if turn != 0.0 and mine > turning:
+                w, turning = turn, mine
         return max(0.0, v), min(r.w_max_rad_s, max(-r.w_max_rad_s, w))

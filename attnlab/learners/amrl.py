@@ -32,19 +32,27 @@ class ActiveMeasure(Learner):
 
     def __init__(self, params: Params, context: LearnerContext):
         super().__init__(params, context)
-        self.followed: list[list[dict[int, int]]] = [[{} for _ in context.periods] for _ in range(context.states)]
-        place = {period: i for i, period in enumerate(context.periods)}
-        self._parts = [[(place[q], place[p - q]) for q in context.periods if p - q in place] for p in context.periods]
+        n, periods = context.states, list(context.periods)
+        self._followed = [[[0] * n for _ in periods] for _ in range(n)]  # how often, by state, period, next state
+        self._first = [[[0] * n for _ in periods] for _ in range(n)]  # at which look first
+        self._usual = [[-1] * len(periods) for _ in range(n)]  # the estimates
+        self._looks = 0
+        self._rest = [[periods.index(p - q) if p - q in periods else -1 for q in periods] for p in periods]
 
     def estimate(self, state: int, action: int) -> int | None:
         """The state that most often followed after this period; the first seen of equals. None if none was seen."""
-        seen = self.followed[state][action]
-        return max(seen, key=seen.__getitem__) if seen else None
+        usual = self._usual[state][action]
+        return usual if usual >= 0 else None
 
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
         self._learn(state, action, reward, max(self.q[next_state]), self.params.gamma)
-        seen = self.followed[state][action]
-        seen[next_state] = seen.get(next_state, 0) + 1
+        self._looks += 1
+        often, first, usual = self._followed[state][action], self._first[state][action], self._usual[state][action]
+        often[next_state] += 1
+        if often[next_state] == 1:
+            first[next_state] = self._looks
+        if usual < 0 or (often[usual], first[next_state]) < (often[next_state], first[usual]):
+            self._usual[state][action] = next_state
 
     def terminal(self, state: int, action: int, reward: float) -> None:
         self._learn(state, action, reward, 0.0, 0.0)
@@ -53,7 +61,7 @@ class ActiveMeasure(Learner):
         earned, alpha = reward - self.params.look_cost, self.params.alpha
         self.visits[state][action] += 1
         self.q[state][action] = q_update(self.q[state][action], earned, best, alpha, gamma)
-        for before, after in self._parts[action]:
-            there = self.estimate(state, before)
-            if there is not None:
+        for before, after in enumerate(self._rest[action]):
+            there = self._usual[state][before]
+            if there >= 0 and after >= 0:
                 self.q[there][after] = q_update(self.q[there][after], earned, best, alpha, gamma)

@@ -10,6 +10,15 @@ from attnlab.registry import register
 from attnlab.settings import setting
 
 
+class Market:
+    """What behaviours that share a budget of looks know of each other: the price of a look, and the mean period of
+    each, those that are known first."""
+
+    def __init__(self) -> None:
+        self.price, self.known = 0.1, 0
+        self.means: list[float] = []
+
+
 @register("learner", "bandwidth")
 class Bandwidth(Watchful):
     """Value of information under a shared budget. f(k), the cost of age, is the chance of danger or death k cycles
@@ -32,13 +41,13 @@ class Bandwidth(Watchful):
     params: Params
 
     def __init__(self, params: Params, context: LearnerContext):
-        context.shared.setdefault("price", 0.1)
-        context.shared.setdefault("periods", {})
+        self.market: Market = context.shared.setdefault("market", Market())
+        self.market.means.append(0.0)
+        self._place = -1
         super().__init__(params, context)
 
     def values(self, state: int) -> list[float]:
-        price: float = self.context.shared["price"]
-        x, values = state % self.context.bins, []
+        x, price, values = state % self.context.bins, self.market.price, []
         for p in self.context.periods:
             harm = float(p - 1) if self.dangerous[x] else 0.0
             for chance in self.trace[x][1:p]:
@@ -47,12 +56,13 @@ class Bandwidth(Watchful):
         return values
 
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
-        super().update(state, action, reward, next_state, next_action, cycles)
-        p, shared = self.params, self.context.shared
-        means: dict[str, float] = shared["periods"]
-        mine = means.get(self.context.behaviour, float(cycles))
-        means[self.context.behaviour] = p.memory * mine + (1.0 - p.memory) * cycles
+        self._learn(state, action, cycles, next_state % self.context.bins)
+        p, market = self.params, self.market
+        if self._place < 0:
+            self._place, market.known = market.known, market.known + 1
+            market.means[self._place] = float(cycles)
+        market.means[self._place] = p.memory * market.means[self._place] + (1.0 - p.memory) * cycles
         looks = 0.0
-        for mean in means.values():
+        for mean in market.means[:market.known]:
             looks += 1.0 / mean
-        shared["price"] = max(0.0, shared["price"] + p.step * (looks - p.budget) * cycles / len(means))
+        market.price = max(0.0, market.price + p.step * (looks - p.budget) * cycles / market.known)

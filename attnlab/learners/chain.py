@@ -9,78 +9,103 @@ STAY, PRIOR = 0.1, 0.001  # transitions of each percept to itself and to each, a
 GROWTH = 1.1  # the estimate is renewed when there are this many times the looks there were
 
 
-def product(one: Matrix, other: Matrix) -> Matrix:
-    """The matrix product; sums from left to right, so that every Python gives the same bits."""
-    columns = list(zip(*other, strict=True))
-    found = []
-    for row in one:
-        new = []
-        for column in columns:
+def zeros(size: int) -> Matrix:
+    """A square matrix of nothing."""
+    return [[0.0] * size for _ in range(size)]
+
+
+def multiply(one: Matrix, other: Matrix, product: Matrix) -> None:
+    """The matrix product into ``product``; sums from left to right, so that every Python gives the same bits."""
+    for j in range(len(one)):
+        column = [row[j] for row in other]
+        for i, row in enumerate(one):
             value = 0.0
-            for a, b in zip(row, column, strict=True):
-                value += a * b
-            new.append(value)
-        found.append(new)
-    return found
+            for k, x in enumerate(column):
+                value += row[k] * x
+            product[i][j] = value
+
+
+def transpose(matrix: Matrix, into: Matrix) -> None:
+    """The columns as rows."""
+    for i, row in enumerate(matrix):
+        for j, value in enumerate(row):
+            into[j][i] = value
 
 
 class Chain:
     """P, the chances of the percepts (and of death, the last state, in which a chain stays) one cycle later.
 
-    ``seen[p][i][j]``: looks at i that were followed by j after p cycles. :meth:`renew` is one step of expectation
-    maximisation of the chance of all that was seen, the percepts between looks being what is not known; a period needs
-    no parameters of its own, because its chances are P^p.
+    ``seen[k][i][j]``: looks at i that were followed by j after the k-th period. :meth:`renew` is one step of
+    expectation maximisation of the chance of all that was seen, the percepts between looks being what is not known; a
+    period needs no parameters of its own, because its chances are P^p, ``powers[p]``.
     """
 
     def __init__(self, percepts: int, periods: Sequence[int]):
-        self.size = percepts + 1
-        self.seen = {p: [[0] * self.size for _ in range(self.size)] for p in periods}
+        self.size, self.death, self.periods = percepts + 1, percepts, list(periods)
+        self.seen = [[[0] * self.size for _ in range(self.size)] for _ in periods]
         self.looks, self._due = 0, 1.0
         stay, drift = 0.5, 0.5 / 3
         self.step = [[stay + drift if i == j else drift if abs(i - j) == 1 else 0.0 for j in range(self.size)]
                      for i in range(self.size)]
-        self.step = [self._normal([x + 1e-3 for x in row], i) for i, row in enumerate(self.step)]
-        self.powers = self._powers()
+        self.powers = [[[float(i == j) for j in range(self.size)] for i in range(self.size)]
+                       for _ in range(1 + max(periods))]
+        self._odds, self._counts, self._share, self._one, self._other = (zeros(self.size) for _ in range(5))
+        for row in self.step:
+            for j in range(self.size):
+                row[j] += 1e-3
+        self._ready()
 
-    def add(self, percept: int, cycles: int, after: int | None) -> bool:
-        """A look at ``after`` (None: the robot died), ``cycles`` after one at ``percept``. True if it is time to
+    def add(self, percept: int, cycles: int, after: int) -> bool:
+        """A look at ``after`` (``death``: the robot died), ``cycles`` after one at ``percept``. True if it is time to
         renew, which is rarer the more was seen."""
-        if cycles in self.seen:
-            self.seen[cycles][percept][self.size - 1 if after is None else after] += 1
-            self.looks += 1
+        for k, period in enumerate(self.periods):
+            if period == cycles:
+                self.seen[k][percept][after] += 1
+                self.looks += 1
         return self.looks >= self._due
 
     def renew(self) -> None:
         """A better P from all that was seen."""
         self._due = self.looks * GROWTH
-        counts = [[STAY + PRIOR if i == j else PRIOR for j in range(self.size)] for i in range(self.size)]
-        for p, seen in self.seen.items():
-            reached = self.powers[p]
-            odds = [[n / reached[i][j] if n and reached[i][j] > 0 else 0.0 for j, n in enumerate(row)]
-                    for i, row in enumerate(seen)]
-            if not any(map(any, odds)):
-                continue
-            for k in range(p):
-                before = [list(column) for column in zip(*self.powers[k], strict=True)]
-                after = [list(column) for column in zip(*self.powers[p - 1 - k], strict=True)]
-                share = product(product(before, odds), after)
-                for i in range(self.size):
-                    for j in range(self.size):
-                        counts[i][j] += self.step[i][j] * share[i][j]
-        self.step = [self._normal(row, i) for i, row in enumerate(counts)]
-        self.powers = self._powers()
+        for i, row in enumerate(self._counts):
+            for j in range(self.size):
+                row[j] = STAY + PRIOR if i == j else PRIOR
+        for k, period in enumerate(self.periods):
+            if self._have_odds(k, self.powers[period]):
+                for before in range(period):
+                    self._expect(self.powers[before], self.powers[period - 1 - before])
+        for i, row in enumerate(self._counts):
+            for j, count in enumerate(row):
+                self.step[i][j] = count
+        self._ready()
 
-    def _normal(self, row: list[float], i: int) -> list[float]:
-        if i == self.size - 1:
-            return [0.0] * i + [1.0]
-        total = 0.0
-        for value in row:
-            total += value
-        return [value / total for value in row]
-
-    def _powers(self) -> list[Matrix]:
-        """P^0 to P^(longest period)."""
-        found: list[Matrix] = [[[float(i == j) for j in range(self.size)] for i in range(self.size)]]
-        for _ in range(max(self.seen)):
-            found.append(product(found[-1], self.step))
+    def _have_odds(self, k: int, reached: Matrix) -> bool:
+        """How much more often each pair was seen after the k-th period than foreseen; False if none was seen."""
+        found = False
+        for i, row in enumerate(self.seen[k]):
+            for j, n in enumerate(row):
+                odd = n / reached[i][j] if n and reached[i][j] > 0 else 0.0
+                self._odds[i][j] = odd
+                found = found or odd > 0.0
         return found
+
+    def _expect(self, before: Matrix, after: Matrix) -> None:
+        """Count each transition as often as it is expected between two looks, that many cycles from both."""
+        transpose(before, self._one)
+        multiply(self._one, self._odds, self._other)
+        transpose(after, self._one)
+        multiply(self._other, self._one, self._share)
+        for i, row in enumerate(self._share):
+            for j, share in enumerate(row):
+                self._counts[i][j] += self.step[i][j] * share
+
+    def _ready(self) -> None:
+        """Rows that sum to 1, death without return, and the powers of it."""
+        for i, row in enumerate(self.step):
+            whole = 0.0
+            for value in row:
+                whole += value
+            for j in range(self.size):
+                row[j] = row[j] / whole if i < self.death else 1.0 if j == self.death else 0.0
+        for p in range(1, len(self.powers)):
+            multiply(self.powers[p - 1], self.step, self.powers[p])

@@ -16,15 +16,13 @@ class DoubleQ(QLearning):
 
     ``q`` and ``values`` are the mean of both. Draws one number an update.
     """
-    interpreted = "its two tables are a list of lists of lists"
-
     def __init__(self, params: TabularParams, context: LearnerContext):
         super().__init__(params, context)
         self._tables = [[[0.0] * self.actions for _ in range(context.states)] for _ in range(2)]
 
     def _learn(self, state: int, action: int, reward: float, next_state: int | None, discount: float) -> None:
-        coin = self.context.draw.random() < 0.5
-        mine, other = self._tables[coin], self._tables[not coin]
+        coin = 1 if self.context.draw.random() < 0.5 else 0
+        mine, other = self._tables[coin], self._tables[1 - coin]
         best = 0.0
         if next_state is not None:
             row = mine[next_state]

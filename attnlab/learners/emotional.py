@@ -36,13 +36,12 @@ class Emotional(Monitor):
         self._emotion = 0.0
 
     def start(self) -> None:
-        super().start()
-        self._emotion = 0.0
+        self._last, self._emotion = -1, 0.0
 
     def decide(self, state: int, exploration: Exploration, draw: Random) -> int:
         periods = self.context.periods
         elapsed = periods[state // self.context.bins % len(periods)]
-        wanted = periods[super().decide(state, exploration, draw)]
+        wanted = periods[self.granted(state)]
         longest, shortest = max(periods), min(periods)
         urgency = (longest - wanted) / (longest - shortest) if longest > shortest else 0.0
         self._emotion = max(urgency, self._emotion * self.params.fading ** elapsed)

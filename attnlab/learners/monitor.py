@@ -41,7 +41,6 @@ class Monitor(NoLearner):
     periods is taken. AVOID looks more often when something is near, EAT and DRINK when the need is great; the functions
     themselves are ours, the cited work sets them for its own robots. Ignores curiosity. Draws nothing at random.
     """
-    interpreted = "its function is of one of three kinds"
 
     @dataclass
     class Params:
@@ -75,10 +74,18 @@ class Monitor(NoLearner):
 
     def _nearest(self, period: float) -> int:
         """The index of the granted period nearest to this one; the shorter of two."""
-        periods = self.context.periods
-        return min(range(len(periods)), key=lambda i: (abs(periods[i] - period), periods[i]))
+        periods, nearest = self.context.periods, 0
+        for i, granted in enumerate(periods):
+            more = abs(granted - period) - abs(periods[nearest] - period)
+            if more < 0.0 or (more == 0.0 and granted < periods[nearest]):
+                nearest = i
+        return nearest
 
     def decide(self, state: int, exploration: Exploration, draw: Random) -> int:
+        return self.granted(state)
+
+    def granted(self, state: int) -> int:
+        """The index of the period that the function gives for what is perceived."""
         bins, periods = self.context.bins, self.context.periods
         percept, last = state % bins, self._last
         self._last = percept

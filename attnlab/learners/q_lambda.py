@@ -16,7 +16,6 @@ class QLambda(QLearning):
     every Q(x,b) grows by alpha delta e(x,b); the trace e(s,a) is 1 when visited (replacing), fades by gamma lambda,
     and all are cut when the next action is not a greedy one, and at the start of an episode. Draws nothing at
     random."""
-    interpreted = "its traces are a dictionary"
     on_policy = True
 
     @dataclass
@@ -28,16 +27,32 @@ class QLambda(QLearning):
 
     def __init__(self, params: Params, context: LearnerContext):
         super().__init__(params, context)
-        self._traces: dict[tuple[int, int], float] = {}
+        self._traces = [[0.0] * self.actions for _ in range(context.states)]
+        self._traced, self._n = [0] * (context.states * self.actions), 0  # where there are any: the first n
 
     def start(self) -> None:
-        self._traces = {}
+        self._fade(0.0)
+
+    def _fade(self, factor: float) -> None:
+        kept = 0
+        for place in self._traced[:self._n]:
+            x, b = divmod(place, self.actions)
+            trace = factor * self._traces[x][b]
+            self._traces[x][b] = trace if trace >= self.params.least else 0.0
+            if trace >= self.params.least:
+                self._traced[kept] = place
+                kept += 1
+        self._n = kept
 
     def _spread(self, state: int, action: int, delta: float) -> None:
-        self._traces[state, action] = 1.0
+        if self._traces[state][action] == 0.0:
+            self._traced[self._n] = state * self.actions + action
+            self._n += 1
+        self._traces[state][action] = 1.0
         step = self.params.alpha * delta
-        for (x, b), trace in self._traces.items():
-            self.q[x][b] += step * trace
+        for place in self._traced[:self._n]:
+            x, b = divmod(place, self.actions)
+            self.q[x][b] += step * self._traces[x][b]
         self.visits[state][action] += 1
 
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
@@ -45,10 +60,8 @@ class QLambda(QLearning):
         best = max(following)
         greedy = following[next_action] == best
         self._spread(state, action, reward + discount * best - self.q[state][action])
-        fade = discount * self.params.lam
-        self._traces = {key: fade * trace for key, trace in self._traces.items()
-                        if fade * trace >= self.params.least} if greedy else {}
+        self._fade(discount * self.params.lam if greedy else 0.0)
 
     def terminal(self, state: int, action: int, reward: float) -> None:
         self._spread(state, action, reward - self.q[state][action])
-        self._traces = {}
+        self._fade(0.0)

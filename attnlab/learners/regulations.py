@@ -48,8 +48,8 @@ class Regulations(Learner):
     def emphasis(self, state: int) -> float:
         """e of a state, in (0, 1)."""
         drive = 0.0
-        for weight, influence in zip(self.weights, self.influences(state), strict=True):
-            drive += weight * influence
+        for i, influence in enumerate(self.influences(state)):
+            drive += self.weights[i] * influence
         return 1.0 / (1.0 + exp(-max(-50.0, min(50.0, drive))))
 
     def values(self, state: int) -> list[float]:
@@ -70,5 +70,5 @@ class Regulations(Learner):
         if better and self._longest > self._shortest:
             shown = (self._longest - self.context.periods[action]) / (self._longest - self._shortest)
             step = self.params.rate * (shown - self.emphasis(state))
-            self.weights = [weight + step * influence
-                            for weight, influence in zip(self.weights, self.influences(state), strict=True)]
+            for i, influence in enumerate(self.influences(state)):
+                self.weights[i] += step * influence

@@ -32,7 +32,7 @@ class Watchful(Learner):
         places = [(x + 0.5) / context.bins for x in range(context.bins)]
         self.dangerous = [(below is not None and place < below) or (above is not None and place > above)
                           for place in places]
-        self.trace: list[list[float]] = []
+        self.trace = [[0.0] * len(self.chain.powers) for _ in self.dangerous]
         self.plan = [[0.0] * self.actions for _ in range(context.bins)]
         self._foresee()
 
@@ -43,9 +43,9 @@ class Watchful(Learner):
         self._learn(state, action, cycles, next_state % self.context.bins)
 
     def terminal(self, state: int, action: int, reward: float) -> None:
-        self._learn(state, action, self.context.periods[action], None)
+        self._learn(state, action, self.context.periods[action], self.chain.death)
 
-    def _learn(self, state: int, action: int, cycles: int, after: int | None) -> None:
+    def _learn(self, state: int, action: int, cycles: int, after: int) -> None:
         self.visits[state][action] += 1
         if self.chain.add(state % self.context.bins, cycles, after):
             self.chain.renew()
@@ -53,12 +53,13 @@ class Watchful(Learner):
 
     def _foresee(self) -> None:
         """``trace[x][k]``: chance that k cycles after a look at x there is danger, or death, that was not there."""
-        harmful = [i for i, dangerous in enumerate([*self.dangerous, True]) if dangerous]
-        self.trace = [[0.0] * len(self.chain.powers) for _ in self.dangerous]
-        for x, dangerous in enumerate(self.dangerous):
+        for x, known in enumerate(self.dangerous):
             for k, power in enumerate(self.chain.powers):
-                for i in () if dangerous else harmful:
-                    self.trace[x][k] += power[x][i]
+                chance = 0.0
+                for i, harmful in enumerate(self.dangerous):
+                    if harmful and not known:
+                        chance += power[x][i]
+                self.trace[x][k] = chance if known else chance + power[x][self.chain.death]
         self.replan()
 
     def replan(self) -> None:

@@ -20,7 +20,7 @@ class TempoTables:
 
     def __init__(self, states: int, actions: int, skips: Sequence[int], alpha: float, gamma: float):
         self.alpha, self.gamma = alpha, gamma
-        self.place = {j: i for i, j in enumerate(skips)}
+        self.skips = list(skips)
         self.behaviour = [[0.0] * actions for _ in range(states)]
         self.skip = [[[0.0] * len(skips) for _ in range(actions)] for _ in range(states)]
 
@@ -32,7 +32,7 @@ class TempoTables:
     def stretch(self, state: int, action: int, earned: float, length: int, after: int | None) -> None:
         """``length`` steps of ``action``, which earned this much, discounted."""
         row = self.skip[state][action]
-        j = self.place[length]
+        j = self.skips.index(length)
         row[j] = q_update(row[j], earned, self._best(after), self.alpha, self.gamma ** length)
 
     def path(self, states: Sequence[int], action: int, rewards: Sequence[float], ended: bool) -> None:
@@ -45,7 +45,7 @@ class TempoTables:
             earned = 0.0
             for i in range(k, -1, -1):
                 earned = rewards[i] + self.gamma * earned
-                for length in self.place:
+                for length in self.skips:
                     if length == k + 1 - i or (ended and k == last and length > k + 1 - i):
                         self.stretch(states[i], action, earned, length, after)
 
@@ -77,7 +77,6 @@ class TempoRL(Learner):
         super().__init__(params, context)
         self.needs_between = params.observe == "all"
         self.tables = TempoTables(context.states, 1, context.periods, params.alpha, params.gamma)
-        self.q = [rows[0] for rows in self.tables.skip]
         self._during = [0.0]
         for k in range(max(context.periods)):
             self._during.append(self._during[k] + params.gamma ** k)
@@ -94,6 +93,9 @@ class TempoRL(Learner):
         if period == 1:
             self.tables.step(state, 0, reward, after)
         self.tables.stretch(state, 0, during * reward, period, after)
+        self.q[state][action] = self.tables.skip[state][0][action]
 
     def watched(self, path: Sequence[int], rewards: Sequence[float], ended: bool) -> None:
         self.tables.path(path, 0, rewards, ended)
+        for state in path:
+            self.q[state][:] = self.tables.skip[state][0]

@@ -52,9 +52,9 @@ class Timing(Learner):
         self.visits[state][action] += 1
         self.deaths += 1
         self.died += (reward - self.died) / self.deaths
-        self._learn(state, self.context.periods[action], None)
+        self._learn(state, self.context.periods[action], self.chain.death)
 
-    def _learn(self, state: int, cycles: int, after: int | None) -> None:
+    def _learn(self, state: int, cycles: int, after: int) -> None:
         if self.chain.add(state % self.context.bins, cycles, after):
             self.chain.renew()
             self._replan()
@@ -68,6 +68,6 @@ class Timing(Learner):
                 worth = [self.earned[i][x] - p.look_cost + p.gamma * best[x] for x in range(n)]
                 for x in range(n):
                     value = reached[x][n] * self.died
-                    for chance, then in zip(reached[x], worth, strict=False):  # death is the last, and counted above
-                        value += chance * then
+                    for k, then in enumerate(worth):
+                        value += reached[x][k] * then
                     self.plan[x][i] = value

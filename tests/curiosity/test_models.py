@@ -72,7 +72,7 @@ def test_litman_gap_wants_what_it_does_not_know():
     assert model.liking(memory, 3) == pytest.approx(0.6)
     assert [model.level(w, 0.9) for w in (0.5, 0.51)] == [0, 2]
     _, memory = after("litman_gap", [0] * 9 + [1] * 10, length=10)
-    assert memory[0] == [0.5, 10.5, 0.5, 0.5, 0.5, 0.5]  # the zeros have left the window
+    assert memory.a == [0.5, 10.5, 0.5, 0.5, 0.5, 0.5]  # the zeros have left the window
 
 
 def test_information_gap():
@@ -129,7 +129,7 @@ def test_learning_progress_is_the_fall_of_the_error():
     assert model.progress([0.9, 0.8, 0.5, 0.4]) == pytest.approx(0.4)
     assert model.progress([0.1, 0.9, 0.8, 0.5, 0.4]) == pytest.approx(0.4)
     memory = model.memory()
-    memory[1][2] += [0.4, 0.4, 0.9, 0.9]
+    memory.errors[2], memory.known[2] = [0.4, 0.4, 0.9, 0.9], 4
     assert model.liking(memory, 2) == 0.0  # getting worse is not liked
 
 
@@ -158,11 +158,11 @@ def test_habituation_to_a_view_and_growth_for_a_new_one():
         model.observe(memory, 0)
     once = 1 - 1 / 3.33  # y + (1.05 (1 - y) - 1) / 3.33 from y = 1
     assert seen[:3] == pytest.approx([1.0, once, once + (1.05 * (1 - once) - 1) / 3.33])
-    assert seen[-1] < 0.1 and len(memory.weights) == 1
+    assert seen[-1] < 0.1 and memory.n == 1
     now._ring = [0.3] * 8 + [5.0] * 8
     assert model.liking(memory, 0) == 1.0
     model.observe(memory, 0)
-    assert len(memory.weights) == 2
+    assert memory.n == 2
 
 
 def test_optimal_arousal_likes_some_novelty():

@@ -101,12 +101,13 @@ def test_information_gap_in_a_full_window():
     memory = seen(full, [0, 1])
     gained = shares(2, 2, 1, 1, 1, 1) - shares(3, 1, 1, 1, 1, 1)  # 0 leaves, 1 comes again
     assert full.liking(memory, 1) == pytest.approx(1 - exp(-gained / 0.05))
-    assert memory == ([2.0, 2.0, 1.0, 1.0, 1.0, 1.0], [0, 1])
+    assert (memory.a, memory.window.seen()) == ([2.0, 2.0, 1.0, 1.0, 1.0, 1.0], [0, 1])
 
 
 def test_litman_gap_forgets_what_left_its_window():
     model = make("curiosity", "litman_gap", length=2, prior=0.5)
-    assert seen(model, [0, 1, 1]) == ([0.5, 2.5, 0.5, 0.5, 0.5, 0.5], [1, 1])
+    memory = seen(model, [0, 1, 1])
+    assert (memory.a, memory.window.seen()) == ([0.5, 2.5, 0.5, 0.5, 0.5, 0.5], [1, 1])
     assert [model.liking(seen(model, [0, 1, 1]), percept) for percept in (0, 1)] == [1.0, 0.0]
 
 
@@ -118,7 +119,8 @@ def test_learning_progress_by_hand():
         found.append(model.liking(memory, 0))
         model.observe(memory, 0)
     assert found == pytest.approx([0.0, 0.0, 0.0, 5 / 12, 5 / 24])
-    assert memory[1] == [pytest.approx([5 / 24, 5 / 48]), [], [], [], [], []]  # no more than window + delay
+    assert memory.known == [2, 0, 0, 0, 0, 0]  # no more than window + delay
+    assert memory.errors[0] == pytest.approx([5 / 24, 5 / 48])
     keen = make("curiosity", "learning_progress", window=1, delay=1, rate=0.5, gain=4.0)
     assert keen.liking(seen(keen, [0] * 3), 0) == 1.0  # 4 * 5/12, at most 1
     assert keen.liking(seen(keen, [0] * 4), 0) == pytest.approx(5 / 6)
@@ -126,8 +128,9 @@ def test_learning_progress_by_hand():
 
 def test_learning_progress_belongs_to_what_came_before():
     model = make("curiosity", "learning_progress", window=1, delay=1, rate=0.5)
-    cells = seen(model, [0, 1, 2])[1]
-    assert cells == [[pytest.approx(5 / 6)], [pytest.approx(5 / 6)], [], [], [], []]
+    memory = seen(model, [0, 1, 2])
+    assert memory.known == [1, 1, 0, 0, 0, 0]
+    assert [memory.errors[cell][0] for cell in (0, 1)] == pytest.approx([5 / 6, 5 / 6])
 
 
 def test_surprise_never_forgets_more_than_to_a_thousandth():
@@ -161,6 +164,14 @@ def habituation(ring, **settings):
     return model
 
 
+def units(*grown):
+    """Units of these weights and freshness each, with room for nine."""
+    made = Units(9)
+    for weights, fresh in grown:
+        made.fresh[made.grow(weights)] = fresh
+    return made
+
+
 HALF = [1.0] * 16  # of the range of 2 m
 OTHER = [1.0] * 15 + [3.0]  # one sonar hears nothing within range: half the range away from HALF
 
@@ -168,44 +179,44 @@ OTHER = [1.0] * 15 + [3.0]  # one sonar hears nothing within range: half the ran
 def test_the_view_is_the_ring_over_its_range():
     """A first unit is that view: a quarter, then all from 2 m on."""
     model = habituation([0.5, 1.999, 2.0, 5.0] * 4)
-    (unit,) = seen(model, [0]).weights
+    unit = seen(model, [0]).weights[0]
     assert unit == pytest.approx([0.25, 0.9995, 1.0, 1.0] * 4)
 
 
-@pytest.mark.parametrize(("fresh", "activity", "units", "liking"), [
+@pytest.mark.parametrize(("fresh", "activity", "most", "liking"), [
     (0.2, 0.61, 9, 1.0), (0.2, 0.60, 9, 0.2),  # its activity is exp(-0.5) = 0.6065
     (0.3, 0.61, 9, 0.3), (0.299, 0.61, 9, 1.0), (0.2, 0.61, 1, 0.2), (0.2, 0.61, 2, 1.0)])
-def test_what_a_habituated_unit_does_not_stand_for_is_new(fresh, activity, units, liking):
-    model = habituation(OTHER, activity=activity, units=units)
-    memory = Units([[0.5] * 16], [fresh])
+def test_what_a_habituated_unit_does_not_stand_for_is_new(fresh, activity, most, liking):
+    model = habituation(OTHER, activity=activity, units=most)
+    memory = units(([0.5] * 16, fresh))
     assert model.liking(memory, 0) == liking
     model.observe(memory, 0)
-    assert len(memory.weights) == (2 if liking == 1.0 else 1)
+    assert memory.n == (2 if liking == 1.0 else 1)
 
 
 def test_the_same_view_again_is_never_new():
-    assert habituation(HALF, activity=1.0).liking(Units([[0.5] * 16], [0.1]), 0) == 0.1
+    assert habituation(HALF, activity=1.0).liking(units(([0.5] * 16, 0.1)), 0) == 0.1
 
 
 def test_the_nearest_unit_wins():
-    units = Units([[0.9] * 16, [0.5] * 16, [0.1] * 16], [0.7, 0.4, 0.8])
-    assert units.winner([0.5] * 15 + [0.75]) == (1, pytest.approx(exp(-0.25)))
-    assert Units().winner([0.5] * 16) == (-1, 0.0)
-    assert habituation(HALF).liking(units, 0) == 0.4
+    memory = units(([0.9] * 16, 0.7), ([0.5] * 16, 0.4), ([0.1] * 16, 0.8))
+    assert memory.winner([0.5] * 15 + [0.75]) == (1, pytest.approx(exp(-0.25)))
+    assert units().winner([0.5] * 16) == (-1, 0.0)
+    assert habituation(HALF).liking(memory, 0) == 0.4
 
 
 def test_a_winner_moves_and_habituates():
     """y = 0.5 and w = 0.25: y + (1 * 0.5 - 1) / 4 = 0.375, and w + 0.5 * 0.5 * 0.25."""
-    memory = Units([[0.25] * 16], [0.5])
+    memory = units(([0.25] * 16, 0.5))
     habituation(HALF, alpha=1.0, tau=4.0, rate=0.5).observe(memory, 0)
-    assert (memory.weights, memory.fresh) == ([[0.3125] * 16], [0.375])
+    assert (memory.weights[0], memory.fresh[0], memory.n) == ([0.3125] * 16, 0.375, 1)
     habituation(HALF, alpha=0.5, tau=1.0).observe(memory, 0)
-    assert memory.fresh == [0.0]  # 0.375 + 0.3125 - 1 is below
+    assert memory.fresh[0] == 0.0  # 0.375 + 0.3125 - 1 is below
 
 
 def test_a_unit_grows_halfway_and_moves_on_at_once():
     """Between 0.5 and 1 is 0.75, and 0.1 of the rest of the way more; as fresh as after one view, 1 - 1 / 4."""
-    memory = Units([[0.5] * 16], [0.2])
+    memory = units(([0.5] * 16, 0.2))
     habituation(OTHER, activity=0.61, tau=4.0).observe(memory, 0)
-    assert memory.weights == [[0.5] * 16, pytest.approx([0.5] * 15 + [0.775])]
-    assert memory.fresh == [0.2, 0.75]
+    assert memory.weights[:2] == [[0.5] * 16, pytest.approx([0.5] * 15 + [0.775])]
+    assert memory.fresh[:2] == [0.2, 0.75] and memory.n == 2

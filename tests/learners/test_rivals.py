@@ -189,7 +189,7 @@ def test_bandwidth_looks_where_whittles_index_exceeds_the_price(price):
     """W(h) = h f(h+1) - sum f, over all periods 1 to 12: the least cost a cycle is where it first exceeds the price."""
     made = make("learner", "bandwidth", levels=("none",))
     made.trace = harms({0, 1, 2})
-    made.context.shared["price"] = price
+    made.market.price = price
     for x in range(3, 6):
         f = harms({0, 1, 2}, 14)[x]
         costs = [(price + sum(f[1:p])) / p for p in range(1, 14)]
@@ -202,19 +202,17 @@ def test_bandwidth_looks_where_whittles_index_exceeds_the_price(price):
 def test_the_price_of_looks_keeps_a_shared_budget():
     """Two behaviours that look in every cycle raise it, by 0.02 (2 - 0.4) a cycle once both are known, of which each
     brings its half; rare looks lower it, never below nothing."""
-    shared = {}
     one, two = (clock("bandwidth") for _ in range(2))
-    for made, name in ((one, "avoid"), (two, "eat")):
-        made.context = SimpleNamespace(**{**vars(made.context), "behaviour": name, "shared": shared})
-    shared.update(price=0.1, periods={})
+    market = two.market = one.market
+    market.means.append(0.0)
     one.update(0, 0, 0.0, 0, -1, 1)
-    assert shared["price"] == pytest.approx(0.1 + 0.02 * 0.6)
+    assert market.price == pytest.approx(0.1 + 0.02 * 0.6)
     two.update(0, 0, 0.0, 0, -1, 1)
-    assert shared["price"] == pytest.approx(0.112 + 0.02 * 1.6 / 2)
+    assert market.price == pytest.approx(0.112 + 0.02 * 1.6 / 2)
     for _ in range(300):
         one.update(0, 3, 0.0, 0, -1, 12)
         two.update(0, 3, 0.0, 0, -1, 12)
-    assert shared["price"] == 0.0
+    assert market.price == 0.0
 
 
 def test_regulations_by_hand():
