@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from attnlab.errors import ConfigError
-from attnlab.launch.jobs import Job
+from attnlab.launch.jobs import Job, ended_under
 from attnlab.launch.progress import Display
 from attnlab.registry import make
 from attnlab.results.load import folder_of
@@ -43,7 +43,7 @@ def jobs_of(folder: Path, study: StudyFile, failed: bool = False, whole: bool = 
         config = config_of(folder, study, condition, run.seed)
         plans[condition.name] = plan = RunPlan(config) if plan is None else plan.with_seed(run.seed)
         found.append(Job(plan, [*condition.overrides, f"seed={run.seed}"], condition.columns, run.key, condition,
-                         folder / run.name, study.claims, about.get("claim") if about else ""))
+                         folder / run.name, study.claims, ended_under(about)))
     return found
 
 

@@ -109,6 +109,12 @@ def check_once(jobs: Sequence[Job]) -> None:
         job.claims = claims
 
 
+def ended_under(about: Mapping[str, Any]) -> str | None:
+    """The claim under which a run ended, from its run.json; empty if it has not: what a run at work comes to is news,
+    though its claim is known."""
+    return about.get("claim") if about.get("status") in ("complete", "failed") else ""
+
+
 def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[str, int], list[Job]]:
     """(to run, complete already, why the ones to run are not complete: reason -> how many, those of the complete that
     other code of this package made).
@@ -130,7 +136,7 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
             status, _, about = state_of(folder, whole=True)
             reason = status
             if about.get("key") == job.key and about.get("run") in (None, folder.name):  # no copy of it
-                job.folder, job.seen = folder, about.get("claim")
+                job.folder, job.seen = folder, ended_under(about)
                 if status == "complete" and about.get("schema") != SCHEMA_VERSION:
                     reason = "with tables of an older version"
                 if status == "complete" and about.get("plugins") not in (None, plugin_hashes(job.config)):

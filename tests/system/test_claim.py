@@ -7,11 +7,15 @@ import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
 
+from attnlab.launch.jobs import ended_under
+from attnlab.launch.shared import done_by_others
 from attnlab.robot.folder import ClaimLostError, run_to_folder
 from attnlab.tables.claim import FOLDER, PATIENCE_S, beating, place, standings, sweep, take
+from attnlab.tables.files import read_json, write_json
 from attnlab.testing.build import config
 
 INFO = {"run": "run", "key": "k", "overrides": [], "swept": {}}
@@ -118,3 +122,18 @@ def test_who_lost_his_writes_no_more(tmp_path):
     now = {path.name: (path.read_bytes(), path.stat().st_mtime_ns) for path in (tmp_path / "run").iterdir()}
     assert now == other[1]
     assert json.loads((tmp_path / "run" / "run.json").read_text())["claim"] == other[0].token
+
+
+@pytest.mark.parametrize("status", ["running", "failed", "complete"])
+def test_what_ended_since_one_looked_is_not_done_again(tmp_path, status):
+    """A run that was at work when a command planned ends under the claim it had then, and counts as done; one that
+    had ended, and is asked for again, does not."""
+    folder = tmp_path / "main" / "a-seed0-k"
+    folder.mkdir(parents=True)
+    write_json(folder / "run.json", {"status": status, "key": "k", "claim": "his"})
+    job = SimpleNamespace(folder=folder, key="k", seen=ended_under(read_json(folder / "run.json")))
+    assert done_by_others(job) is None
+    write_json(folder / "run.json", {"status": "complete", "key": "k", "claim": "his"})
+    assert (done_by_others(job) is not None) is (status == "running")
+    write_json(folder / "run.json", {"status": "complete", "key": "k", "claim": "another's"})
+    assert done_by_others(job) is not None
