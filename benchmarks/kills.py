@@ -218,8 +218,8 @@ def sums(sweeps: list[dict[str, Any]]) -> dict[str, Any]:
 
 def said(total: dict[str, Any]) -> str:
     return (f"{total['kills']} kills in {total['sweeps']} sweeps of {total['runs']} runs: "
-            f"{total['differing_tables']} of {total['tables']} tables differ, {total['completed_twice']} runs completed "
-            f"twice, {total['unfinished_sweeps']} sweeps not done")
+            f"{total['differing_tables']} of {total['tables']} tables differ, {total['completed_twice']} runs "
+            f"completed twice, {total['unfinished_sweeps']} sweeps not done")
 
 
 if __name__ == "__main__":
