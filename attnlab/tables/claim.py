@@ -191,8 +191,8 @@ def _remove(path: Path) -> None:
 def _standing(path: Path, clock: float | None) -> Standing | None:
     """What is to be said of a claim; None if it is there no more."""
     try:
+        text = (path / "beat").read_text()  # first, so that its time is never older than what it says
         last, begun = ((path / name).stat().st_mtime for name in ("beat", "owner.json"))
-        text = (path / "beat").read_text()
     except OSError:
         return None if not path.exists() else Standing(path.name.rpartition(".")[0], {}, 0, 0, 0.0, 0.0, "half made")
     owner = read_json(path / "owner.json") or {}
