@@ -83,7 +83,9 @@ def _store(context: Any, builder: Any, signature: Any, args: Any, name: str) -> 
         _copy(builder, kind, new, target)
     elif isinstance(kind, types.Array):  # the same of an array
         _copy_array(context, builder, kind, new, _load(context, builder, of, value, name))
-    elif isinstance(kind, (Row, OneOf)):
+    elif isinstance(kind, OneOf):  # another object from now on
+        builder.store(builder.ptrtoint(new, INTEGER), _slot(builder, value, at))
+    elif isinstance(kind, Row):
         raise NotImplementedError(f"{name} is set anew in compiled code; change what it holds instead")
     else:
         builder.store(new, _slot(builder, value, at))

@@ -13,7 +13,7 @@ import numpy as np
 from attnlab.attention import Activation
 from attnlab.compiled.entry import Died, Episode, entries
 from attnlab.compiled.layout import Memory
-from attnlab.compiled.methods import one_of, sources
+from attnlab.compiled.methods import sources
 from attnlab.cycle import Agent
 from attnlab.exploration.base import Exploration
 from attnlab.penalty.base import check_shares
@@ -44,13 +44,10 @@ class Compiled:
         agent.history.table = np.zeros((agent.max_cycles + 2, 3 + len(agent.body.needs)))
         agent.history.rows = 0
         agent.body.larder.reserve(len(agent.simulator.layout.solids))
-        self._memory, self._agent = Memory(), agent
+        self._memory, self._agent = Memory(explorations), agent
         kind, self._at = self._memory.place(agent)
         self._causes = {crc32(cause.encode()): cause for cause in ("crash", "energy", *agent.body.names)}
-        self._explorations = explorations  # kept, so that no other object has their place
-        placed = dict.fromkeys(self._memory.place(exploration)[0] for exploration in explorations)
-        exploration = one_of(tuple(placed)) if len(placed) > 1 else next(iter(placed))
-        found = self._entries(kind, exploration, only_kept)
+        found = self._entries(kind, self._memory.exploration, only_kept)
         self.is_there = found is not None
         if found is not None:
             self._episode, self._died = found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from random import Random
 from types import FunctionType
 from typing import Any
@@ -15,22 +15,25 @@ from attnlab.compiled.kinds import PAIR, OneOf, Reference, Row
 from attnlab.compiled.methods import class_of, one_of, source_of
 from attnlab.compiled.words import WORD, code
 from attnlab.curiosity.base import Curiosity
+from attnlab.exploration.base import Exploration
 from attnlab.worlds.base import Layout as WorldLayout
 
 ARRAYS = {(np.dtype(str(of)), n): types.Array(of, n, "C") for of in (types.float64, types.int64) for n in (1, 2, 3)}
 FLOATS, WHOLES = (ARRAYS[np.dtype(of), 1] for of in (np.float64, np.int64))
 EMPTY: dict[Any, types.Type] = {list[int]: WHOLES, list[float]: FLOATS}
 PAIRS = (tuple[float, float] | None,)
+HELD = (Exploration | None,)  # a part that keeps the exploration it was given; before that it holds the first
 Fields = dict[str, tuple[types.Type, Any]]  # name -> (kind, value)
 
 
 class Memory:
-    """Objects in memory: every one that is reached from those that are placed, each once.
+    """Objects in memory: every one that is reached from those that are placed, each once; ``explorations`` are placed
+    at once, and ``exploration`` is their kind.
 
     ``left_out``: fields that have no place, with what they hold, for messages.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, explorations: Sequence[Exploration]):
         self._fields: dict[int, Fields] = {}
         self._kinds: dict[str, Reference] = {}
         self._slots: dict[int, np.ndarray] = {}
@@ -40,6 +43,8 @@ class Memory:
         self._keep: list[Any] = []
         self._open: set[int] = set()  # being described
         self.left_out: dict[str, str] = {}
+        self._explorations = explorations
+        self.exploration = one_of(tuple(dict.fromkeys(self.place(one)[0] for one in explorations)))
 
     def place(self, thing: Any) -> tuple[Reference, int]:
         """The kind of an object and its address."""
@@ -129,6 +134,8 @@ class Memory:
         pair = value is None or (isinstance(value, tuple) and len(value) == 2 and are(value, float))
         if pair and hints(type(thing)).get(name) in PAIRS:
             return PAIR
+        if hints(type(thing)).get(name) in HELD:
+            return self.exploration
         if type(value) is list and not value and hints(type(thing)).get(name) in EMPTY:
             return EMPTY[hints(type(thing))[name]]
         if type(value) in (list, tuple):
@@ -212,7 +219,7 @@ class Memory:
             where = self._array(thing, name, WHOLES, [self.place(item)[1] for item in value])
             slots[at:at + 2] = where.ctypes.data, len(where)
         elif isinstance(of, (Reference, OneOf)):
-            slots[at] = self.place(value)[1]
+            slots[at] = self.place(self._explorations[0] if value is None else value)[1]
 
     def _array(self, thing: Any, name: str, of: types.Array, value: Any) -> np.ndarray:
         """A list's array, the same one whenever it is written."""

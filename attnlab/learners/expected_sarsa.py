@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from random import Random
 
-from attnlab.arithmetic import total
 from attnlab.equations import q_update
 from attnlab.exploration.base import Exploration
-from attnlab.learners.base import LearnerContext
-from attnlab.learners.q_learning import QLearning, TabularParams
+from attnlab.learners.q_learning import QLearning
 from attnlab.registry import register
 
 
@@ -16,15 +14,11 @@ from attnlab.registry import register
 class ExpectedSarsa(QLearning):
     """Q(s,a) <- (1 - alpha) Q(s,a) + alpha (R + gamma sum_a' pi(a'|s') Q(s',a')) (van Seijen et al. 2009, ADPRL, p.
     177), pi being the exploration in use, which must say how likely its choices are. Draws nothing at random."""
-    interpreted = "it keeps the exploration it is given"
-
-    def __init__(self, params: TabularParams, context: LearnerContext):
-        super().__init__(params, context)
-        self._policy: Exploration | None = None
+    _policy: Exploration | None = None
 
     def decide(self, state: int, exploration: Exploration, draw: Random) -> int:
         self._policy = exploration
-        return super().decide(state, exploration, draw)
+        return exploration.choose(self.q[state], self.visits[state], draw)
 
     def expected(self, state: int) -> float:
         """The value of a state under the policy; under the greedy one before anything was decided."""
@@ -32,7 +26,10 @@ class ExpectedSarsa(QLearning):
         if self._policy is None:
             return max(values)
         chances = self._policy.probabilities(values, self.visits[state])
-        return total(p * q for p, q in zip(chances, values, strict=True))
+        mean = 0.0
+        for action, chance in enumerate(chances):
+            mean += chance * values[action]
+        return mean
 
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
         row, following = self.q[state], self.expected(next_state)
