@@ -32,7 +32,7 @@ class RunSettings:
     """Everything at the top of a config. Groups are mappings with the ``name`` of the chosen part. A cosmetic setting
     changes no number: it is in no run's key, sets no conditions apart, and cannot be swept."""
     seed: int = setting(0, "every draw of the run follows from it", low=0, high=2**63 - 1)
-    train_episodes: int = setting(500, "episodes that learn", low=1, high=10**12)
+    train_episodes: int = setting(500, "episodes that learn; 0 needs start_from", low=0, high=10**12)
     validation_episodes: int = setting(100, "episodes after them, without learning", low=0, high=10**12)
     max_cycles: int = setting(1150, "machine cycles an episode; follows the reading", unit="mc", low=1, high=10**7)
     periods: list[int] = setting([1, 4, 8, 12], "periods a clock may have", unit="mc", low=1, high=10_000)
@@ -52,6 +52,11 @@ class RunSettings:
                             "{design: multiverse, size: 64, seed: 0}", cosmetic=True)
     labels: dict[str, Any] = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}",
                                      cosmetic=True)
+    start_from: str | None = setting(None, "folder of a complete run whose robot goes on here, with all it has learned",
+                                     late=True)
+    checkpoint_minutes: float | None = setting(
+        10.0, "a run keeps every so often where it is, and a killed one goes on from there; null for never", unit="min",
+        low=0, cosmetic=True)
     validation: ValidationSettings = setting(ValidationSettings(), "how validation differs from training")
     reading: dict[str, Any] = setting({}, "how the paper's open points are read")
     simulator: dict[str, Any] = setting({}, "")
@@ -67,6 +72,10 @@ class RunSettings:
     cluster: dict[str, Any] = setting({}, "where a sweep runs", cosmetic=True)
 
     def __post_init__(self) -> None:
+        if self.train_episodes < 1 and self.start_from is None:
+            raise ConfigError("train_episodes", "is 0, must be at least 1", "0 is for robots of start_from")
+        if self.train_episodes + self.validation_episodes < 1:
+            raise ConfigError("validation_episodes", "is 0, and there is no training either")
         if len(set(self.periods)) != len(self.periods) or not self.periods:
             raise ConfigError("periods", f"{self.periods} must be different whole numbers, at least one")
         if not self.study.strip() or not self.study.isprintable() or set(self.study) & set("/\\") or \
@@ -148,12 +157,21 @@ def no_such_setting(path: str) -> ConfigError:
 def run_key(config: Mapping[str, Any]) -> str:
     """Ten hex digits of everything in a config that can change a number; a group of which nothing is chosen cannot."""
     kept = {key: value for key, value in that_count(config).items() if value != {} or key == "reading"}
+    return digits_of(kept)
+
+
+def digits_of(config: Mapping[str, Any]) -> str:
+    """Ten hex digits of settings. A robot that a run goes on from is known by its hash, wherever it is."""
+    kept = dict(config)
+    if "start_from" in kept:
+        kept["start_from"] = str(kept["start_from"]).rpartition("#")[2]
     return hashlib.sha256(json.dumps(kept, sort_keys=True, default=str).encode()).hexdigest()[:10]
 
 
 def that_count(config: Mapping[str, Any]) -> dict[str, Any]:
     """What of a config can change a number: all but cosmetic settings, and late ones that are not set."""
-    return {key: without_late(_settings_of(key, value), value) for key, value in config.items() if key not in COSMETIC}
+    return {key: without_late(_settings_of(key, value), value)
+            for key, value in without_late(RunSettings, config).items() if key not in COSMETIC}
 
 
 def _settings_of(name: str, node: Any) -> type | None:

@@ -27,7 +27,7 @@ def setting(default: Any, doc: str, *, unit: str = "", low: float | None = None,
             above: float | None = None, cosmetic: bool = False, late: bool = False) -> Any:
     """A dataclass field with its meaning, unit and range (``low``/``high`` inclusive, ``above`` exclusive).
     ``cosmetic``: it changes no number of a run. ``late``: at its default a run is what it was before there was this
-    setting, so that it is in no key (of ``reading``, ``validation``, and parts of which there is one)."""
+    setting, so that it is in no key (of the top, ``reading``, ``validation``, and parts of which there is one)."""
     meta = {"doc": doc, "unit": unit, "low": low, "high": high, "above": above, "cosmetic": cosmetic, "late": late}
     if isinstance(default, (list, dict)) or dataclasses.is_dataclass(default):
         return dataclasses.field(default_factory=lambda: copy.copy(default), metadata=meta)

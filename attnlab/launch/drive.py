@@ -15,6 +15,7 @@ from attnlab.launch.progress import Display
 from attnlab.loading import plugin_hashes, plugin_versions
 from attnlab.registry import make
 from attnlab.results.old import recovered
+from attnlab.robot.keeping import CHECKPOINT
 from attnlab.tables.code import code
 from attnlab.tables.ranges import compact, seeds
 from attnlab.tables.study import FILE, Condition, grow
@@ -36,6 +37,9 @@ def complete(jobs: Sequence[Job], typed: Sequence[str]) -> list[tuple[Job, str]]
     todo, done, reasons, old = split(jobs, jobs[0].settings.fresh)
     engines.prepare(todo)
     _ask(jobs, typed)
+    if jobs[0].settings.fresh:
+        for job in todo:
+            (job.folder / CHECKPOINT).unlink(missing_ok=True)
     folder = jobs[0].folder.parent
     why = ", ".join(f"{count} {reason}" for reason, count in reasons.items())
     if not done and set(reasons) - {"missing"}:

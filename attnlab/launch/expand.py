@@ -12,6 +12,7 @@ from attnlab.launch.compose import Composer
 from attnlab.launch.door import Door
 from attnlab.launch.jobs import Job, check_different, condition_of, make_job
 from attnlab.launch.variants import Variants, as_override
+from attnlab.robot.agents import pinned
 from attnlab.robot.plan import RunPlan
 
 
@@ -43,7 +44,7 @@ class Expansion:
                 if variant is not None:
                     values.update({"variant": variant, **{key: _shown(value) for key, value in together.items()}})
                     named.append("variant")
-                jobs += _of_condition(self.composer.config(overrides), overrides, values, named, seeds)
+                jobs += _of_condition(pinned(self.composer.config(overrides)), overrides, values, named, seeds)
         check_different(jobs)
         return jobs
 

@@ -24,6 +24,11 @@ def state_of(folder: Path, whole: bool = False) -> State:
         if about.get("schema") not in range(OLDEST_SCHEMA, SCHEMA_VERSION + 1):
             return "damaged", (f"tables of schema {about.get('schema')}, this version reads {OLDEST_SCHEMA} to "
                                f"{SCHEMA_VERSION}; run it again with fresh=true"), about
+        robot = about.get("agent")
+        if whole and isinstance(robot, dict) and "sha256" in robot:
+            problem = check_mark(folder / "agent.json", robot)
+            if problem:
+                return "damaged", problem, about
         for table in TABLES:
             file, marks = folder / f"{table}.parquet", about.get("tables")
             mark = marks.get(table) if isinstance(marks, dict) else None

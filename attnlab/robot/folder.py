@@ -13,14 +13,16 @@ from typing import Any
 
 from attnlab.errors import describe
 from attnlab.loading import plugin_hashes, plugin_versions
+from attnlab.robot.agents import FILE as AGENT
 from attnlab.robot.engines import Choice, choose
 from attnlab.robot.episodes import Progress, play_run
 from attnlab.robot.guards import verdict
+from attnlab.robot.keeping import Keeping
 from attnlab.robot.observers import Observers
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.claim import Claim
 from attnlab.tables.code import versions
-from attnlab.tables.files import sweep_temporary, write_bytes, write_json, write_parquet
+from attnlab.tables.files import mark_of, sweep_temporary, write_bytes, write_json, write_parquet
 from attnlab.tables.numbers import numbers_of
 from attnlab.tables.processes import birth
 from attnlab.tables.schema import SCHEMA_VERSION, TABLES
@@ -55,30 +57,36 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
              "wall_s": None, "cpu_s": None, "cycles": None, "error": None}
     write_json(folder / "run.json", about)
     write_bytes(folder / "config.yaml", OmegaConf.to_yaml(OmegaConf.create(dict(config))).encode())
-    for name in TABLES:
-        (folder / f"{name}.parquet").unlink(missing_ok=True)
-    cpu, observers = time.process_time(), Observers()
+    for name in (*(f"{table}.parquet" for table in TABLES), AGENT):
+        (folder / name).unlink(missing_ok=True)
+    cpu, observers, keeping = time.process_time(), Observers(), None
     interrupt = None
     try:
         with _here():
             plan = RunPlan(config)
+            keeping = Keeping(plan, folder, info["key"], lambda: claim is None or claim.held())
             observers = Observers(plan.callbacks(info["run"], folder))
             observers.start(config)
             engine = Choice(*(info.get("engine") or choose(plan)))
             about.update(engine=engine.name, engine_why=engine.why)
             try:
-                tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers, engine.name)
+                tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers, engine.name,
+                                          keeping)
             except Exception as cause:
                 if engine.name == "python":
                     raise
                 about.update(engine="python", engine_why=f"compiled, it raised {describe(cause)}; played again")
-                tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers)
+                tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers,
+                                          keeping=keeping)
         _check_held(claim)
         about["tables"] = {}
         for name in TABLES:
             columns = plan.columns(name)
             about["tables"][name] = write_parquet(folder / f"{name}.parquet",
                                                   tables[name] or {column: [] for column in columns}, columns)
+        if keeping.agent is not None:
+            write_bytes(folder / AGENT, keeping.agent)
+            about["agent"] = mark_of(keeping.agent)
         about.update(status="complete", cycles=cycles, numbers=numbers_of(tables))
     except ClaimLostError:
         raise
@@ -90,9 +98,15 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     observers.end(str(about["status"]))
     if observers.errors:
         about["callbacks"] = observers.errors
-    about.update(wall_s=round(time.perf_counter() - started, 3), cpu_s=round(time.process_time() - cpu, 3))
+    wall_s, cpu_s = time.perf_counter() - started, time.process_time() - cpu
+    if keeping is not None:
+        about.update(keeping.notes)
+        wall_s, cpu_s = wall_s + keeping.wall_s, cpu_s + keeping.cpu_s
+    about.update(wall_s=round(wall_s, 3), cpu_s=round(cpu_s, 3))
     _check_held(claim)
     write_json(folder / "run.json", about)
+    if keeping is not None and about["status"] == "complete":
+        keeping.forget()
     if interrupt is not None:
         raise interrupt
     return bool(about["status"] == "complete")

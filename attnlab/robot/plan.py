@@ -19,6 +19,7 @@ from attnlab.exploration.base import Exploration
 from attnlab.learners.base import Learner, Rehearse
 from attnlab.probes.base import Probe
 from attnlab.reading import Reading
+from attnlab.robot.agents import saved
 from attnlab.robot.contexts import Making
 from attnlab.robot.guards import blame
 from attnlab.settings import build
@@ -52,6 +53,7 @@ class RunPlan:
         self.validation_spec = self._validation_spec()
         self.needs: dict[str, str] = {}  # unit by need
         self.found: dict[str, Any] = {}  # settings of the learner found offline, see Learner.prepare
+        self.start = None if s.start_from is None else saved(s.start_from)
         self._try_parts()
 
     def with_seed(self, seed: int) -> RunPlan:
@@ -63,7 +65,9 @@ class RunPlan:
         return plan
 
     def prepare(self, play: Rehearse) -> None:
-        """What a learner does before the run."""
+        """What a learner does before the run; one that goes on from another run did it there."""
+        if self.start is not None:
+            return
         spec, params = registry.build_params("learner", self.settings.learner, "learner")
         learner: type[Learner] = spec.cls
         self.found = learner.prepare(params, play)
@@ -141,7 +145,16 @@ class RunPlan:
         body = registry.make("needs", s.needs, r).body(own_needs)
         fusion = registry.make("fusion", s.fusion, r)
         penalty = registry.make("penalty", {"name": r.penalised}, r, "reading.penalised")
-        return Agent(attentions, body, simulator, fusion, penalty, r.max_cycles)
+        agent = Agent(attentions, body, simulator, fusion, penalty, r.max_cycles)
+        if self.start is not None and learner is None:
+            self.start.give(s, agent, self.exploration("train"))
+        return agent
+
+    def newborn(self) -> Agent:
+        """The robot without a world that nothing has happened to, neither elsewhere nor offline."""
+        plan = copy.copy(self)
+        plan.start, plan.found = None, {}
+        return plan.parts_alone()
 
     def _clamp(self, curiosity: Curiosity) -> int:
         """Index of the level that validation is held at; -1 if it is not."""
@@ -189,12 +202,19 @@ class RunPlan:
                                           f"{known[name]}")
                     known[name] = f"probe.{probe.name}"
 
+    def unused(self) -> Exploration:
+        """The exploration of training as it is made."""
+        found: Exploration = registry.make("exploration", self.settings.exploration, None)
+        return found
+
     def exploration(self, phase: str) -> Exploration:
         """How actions are chosen in this phase (train | validation)."""
         node = self.settings.exploration
         if phase == "validation" and self.reading.validation_exploration == "greedy":
             node = {"name": "greedy", "ties": self.reading.tie_break}
         chosen: Exploration = registry.make("exploration", node, None)
+        if self.start is not None and phase == "train":
+            self.start.give_exploration(self.settings, chosen)
         return chosen
 
     def start_pose(self, phase: str, episode: int) -> tuple[float, float, float]:

@@ -7,15 +7,13 @@ Names of conditions, "missing" and the order in figures come from here, for laun
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import json
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from attnlab.config import that_count
+from attnlab.config import digits_of, that_count
 from attnlab.tables.files import read_json, write_json
 from attnlab.tables.lock import locked
 from attnlab.tables.naming import Naming, name_all
@@ -109,8 +107,7 @@ class StudyFile:
 
 def condition_key(config: Mapping[str, Any]) -> str:
     """Ten hex digits of everything in a config that can change a number but for the seed."""
-    text = json.dumps(condition_config(config), sort_keys=True, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()[:10]
+    return digits_of(condition_config(config))
 
 
 def condition_config(config: Mapping[str, Any]) -> dict[str, Any]:

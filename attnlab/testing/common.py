@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import inspect
 import math
 import random
+import tempfile
 import typing
 from collections.abc import Callable
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from attnlab import registry
 from attnlab.settings import build, defaults_of
 from attnlab.testing.build import config, node, part_of
+
+if TYPE_CHECKING:
+    from attnlab.robot.plan import RunPlan
 
 IN_A_RUN = ("simulator", "behaviours", "needs", "fusion", "curiosity", "learner", "exploration")
 
@@ -63,8 +69,15 @@ def checks(group: str) -> list[Callable[..., None]]:
             random.setstate(saved[0])
             np.random.set_state(saved[1])
 
+    def goes_on(name: str, **settings: Any) -> None:
+        """A run that was interrupted is the same in the end; what a part of ours holds can all be kept."""
+        tables, notes = interrupted(group, name, settings)
+        assert repr(tables) == repr(whole_run(group, name, settings)), f"{name}: an interrupted run goes on otherwise"
+        ours = part_of(group, name).cls.__module__.startswith("attnlab.")
+        assert not ours or set(notes) <= {"went_on_at"}, f"{name}: {notes}"
+
     alone = [documented, typed]
-    return [*alone, runs, no_hidden_randomness] if group in IN_A_RUN else alone
+    return [*alone, runs, goes_on, no_hidden_randomness] if group in IN_A_RUN else alone
 
 
 def plain(value: Any) -> bool:
@@ -79,14 +92,40 @@ def plain(value: Any) -> bool:
 def whole_run(group: str, name: str, settings: dict[str, Any]) -> dict[str, dict[str, list[Any]]]:
     """The tables of a short run that uses the part."""
     from attnlab.robot.episodes import play_run
+    return play_run(_plan(group, name, settings))[0]
+
+
+class _Interrupted(BaseException):
+    """Stands for a kill."""
+
+
+def interrupted(group: str, name: str, settings: dict[str, Any]) -> tuple[dict[str, dict[str, list[Any]]],
+                                                                          dict[str, Any]]:
+    """The tables of the same run, killed after its first episode and begun again, and what run.json would say of it."""
+    from attnlab.robot.episodes import play_run
+    from attnlab.robot.keeping import Keeping
+
+    def kill(*_: int) -> None:
+        raise _Interrupted
+    with tempfile.TemporaryDirectory() as home:
+        plan = _plan(group, name, settings, checkpoint_minutes=0)
+        with contextlib.suppress(_Interrupted):
+            play_run(plan.with_seed(plan.settings.seed), folder=Path(home), progress=kill,
+                     keeping=Keeping(plan, Path(home), "key"))
+        keeping = Keeping(plan, Path(home), "key")
+        return play_run(plan, folder=Path(home), keeping=keeping)[0], keeping.notes
+
+
+def _plan(group: str, name: str, settings: dict[str, Any], **top: Any) -> RunPlan:
     from attnlab.robot.plan import RunPlan
     if group == "behaviours":
         works_in: tuple[str, ...] = getattr(part_of(group, name).cls, "simulators", ())
-        chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))), simulator=(works_in or ("planar",))[0])
+        chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))), simulator=(works_in or ("planar",))[0],
+                        **top)
         chosen["behaviours"][name].update(settings)
     elif group == "needs":
-        chosen = config(needs={"name": name, **settings}, behaviours=("avoid",))
+        chosen = config(needs={"name": name, **settings}, behaviours=("avoid",), **top)
     else:
         asked: dict[str, Any] = {group: {"name": name, **settings}}
-        chosen = config(**asked)
-    return play_run(RunPlan(chosen))[0]
+        chosen = config(**asked, **top)
+    return RunPlan(chosen)
