@@ -21,7 +21,7 @@ from attnlab.tables.code import package_hash
 
 # What the recorder and the checks ask of an agent's objects when an episode has ended.
 SEEN = {"body": ("values", "energy", "meals"), "simulator": ("cycle",), "history": ("rows",)}
-ATTENTION = ("action", "period", "due", "state", "command", "wanting", "liking")
+ATTENTION = ("action", "command")
 
 
 class Uncompilable(Exception):
@@ -46,6 +46,9 @@ class Compiled:
         agent.body.larder.reserve(len(agent.simulator.layout.solids))
         self._memory, self._agent = Memory(explorations), agent
         kind, self._at = self._memory.place(agent)
+        self._reads = [self._memory.reader(getattr(agent, name), fields) for name, fields in SEEN.items()]
+        for attention in agent.attentions:
+            self._reads += [self._memory.reader(attention, ATTENTION), self._memory.reader(attention.log, ("rows",))]
         self._causes = {crc32(cause.encode()): cause for cause in ("crash", "energy", *agent.body.names)}
         found = self._entries(kind, self._memory.exploration, only_kept)
         self.is_there = found is not None
@@ -58,11 +61,8 @@ class Compiled:
             self._memory.push(exploration)
         memory, attentions = self._memory, agent.attentions
         cause = self._causes.get(self._episode(self._at, memory.address(exploration), learning, *start))
-        for name, fields in SEEN.items():
-            memory.pull(getattr(agent, name), fields)
-        for attention in attentions:
-            memory.pull(attention, ATTENTION)
-            memory.pull(attention.log, ("rows",))
+        for read in self._reads:
+            read()
         agent.body.dead = cause is not None
         memory.write(agent.body, "dead")
         if cause is None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, sin
 
 import numpy as np
 import numpy.typing as npt
@@ -30,8 +29,7 @@ def quick(agent: Agent, looks: npt.NDArray[np.float64]) -> Quick:
     place = -1 if guard is None else attentions.index(guard)
     needs = np.array([(n.per_cycle, n.start, n.per_activation, n.feeds_energy) for n in body.needs],
                      np.float64).reshape(-1, 4)
-    boxes = np.array([(b.x_m, b.y_m, cos(b.yaw_rad), sin(b.yaw_rad), b.length_m / 2, b.width_m / 2)
-                      for b in agent.simulator.layout.solids]).reshape(-1, 6)
+    boxes = np.array([(b.x_m, b.y_m, *b.footprint) for b in agent.simulator.layout.solids]).reshape(-1, 6)
     bounds = np.array([_bounds(attention) for attention in attentions])
     balanced = is_balanced(body)
     rows = np.zeros(len(attentions), np.int64)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from attnlab.errors import ConfigError
-from attnlab.worlds.geometry import Solid, clearance, clearances
+from attnlab.worlds.geometry import Solid, clearance, clearances, is_clear
 
 WALL_M = 0.1  # thickness of the walls around an arena, outside of its floor
 GRID_M = 0.05  # of the search for free starts
@@ -52,7 +52,7 @@ class Layout:
         x_min, x_max, y_min, y_max = self.start
         for _ in range(1000):
             x, y = draw.uniform(x_min, x_max), draw.uniform(y_min, y_max)
-            if clearance(x, y, self.solids) >= self.start_clearance_m:
+            if is_clear(x, y, self.solids, self.start_clearance_m):
                 break
         else:
             x, y = draw.choice(list(self.free_points()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, sin
 
 import numpy as np
@@ -22,6 +23,11 @@ class Solid:
     yaw_rad: float = 0.0
     height_m: float = 0.5
 
+    @cached_property
+    def footprint(self) -> tuple[float, float, float, float]:
+        """Cosine and sine of its yaw, half its length and half its width (m)."""
+        return cos(self.yaw_rad), sin(self.yaw_rad), self.length_m / 2, self.width_m / 2
+
     def corners(self) -> list[tuple[float, float]]:
         """The four corners, counter-clockwise, in the world frame."""
         c, s = cos(self.yaw_rad), sin(self.yaw_rad)
@@ -32,9 +38,9 @@ class Solid:
 
 def distance(x: float, y: float, solid: Solid) -> float:
     """From a point to the solid's footprint; 0 inside."""
-    c, s = cos(solid.yaw_rad), sin(solid.yaw_rad)
+    c, s, half_length, half_width = solid.footprint
     dx, dy = x - solid.x_m, y - solid.y_m
-    along, across = abs(c * dx + s * dy) - solid.length_m / 2, abs(-s * dx + c * dy) - solid.width_m / 2
+    along, across = abs(c * dx + s * dy) - half_length, abs(-s * dx + c * dy) - half_width
     return length(max(along, 0.0), max(across, 0.0))
 
 
@@ -43,14 +49,19 @@ def clearance(x: float, y: float, solids: tuple[Solid, ...]) -> float:
     return min((distance(x, y, solid) for solid in solids), default=float("inf"))
 
 
+def is_clear(x: float, y: float, solids: tuple[Solid, ...], least_m: float) -> bool:
+    """Is every solid at least this far from a point?"""
+    return all(distance(x, y, solid) >= least_m for solid in solids)
+
+
 def clearances(xy: npt.NDArray[np.float64], solids: tuple[Solid, ...]) -> npt.NDArray[np.float64]:
     """:func:`clearance` of many points, shape (n, 2), at once: shape (n,)."""
     nearest = np.full(len(xy), np.inf)
     for solid in solids:
-        c, s = cos(solid.yaw_rad), sin(solid.yaw_rad)
+        c, s, half_length, half_width = solid.footprint
         dx, dy = xy[:, 0] - solid.x_m, xy[:, 1] - solid.y_m
-        along = np.maximum(np.abs(c * dx + s * dy) - solid.length_m / 2, 0.0)
-        across = np.maximum(np.abs(-s * dx + c * dy) - solid.width_m / 2, 0.0)
+        along = np.maximum(np.abs(c * dx + s * dy) - half_length, 0.0)
+        across = np.maximum(np.abs(-s * dx + c * dy) - half_width, 0.0)
         np.minimum(nearest, np.sqrt(along * along + across * across), out=nearest)
     return nearest
 
