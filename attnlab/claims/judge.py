@@ -19,7 +19,7 @@ from attnlab.stats import Interval, bca_interval, effect_size, holm, mean, sign_
 
 NAN = float("nan")
 NOTHING = Interval(NAN, NAN, NAN)
-Cache = dict[tuple[str, str], Mapping[int, float] | CannotMeasure]  # (role, measure) -> what was measured
+Cache = dict[tuple[str, str], Mapping[int, float] | CannotMeasure]  # (role, repr of the measure's node) -> its values
 
 
 @dataclass
@@ -76,12 +76,14 @@ class Verdict:
         return self.verdict.holds
 
 
-def judge(claims: Claims, conditions: Conditions, stratum: Mapping[str, str] | None = None) -> list[Verdict]:
-    """Verdicts on all claims from the runs of one combination of the other settings (``stratum``: name -> text)."""
+def judge(claims: Claims, conditions: Conditions, stratum: Mapping[str, str] | None = None,
+          measured: Cache | None = None) -> list[Verdict]:
+    """Verdicts on all claims from the runs of one combination of the other settings (``stratum``: name -> text).
+    ``measured``: takes what was measured, for who wants to compare more."""
     roles = {name: conditions.matching(role.where, stratum or {})[0] for name, role in claims.roles.items()}
     out = {name: failed(conditions, role.where, stratum or {}) for name, role in claims.roles.items()}
     why = withheld(claims, roles)
-    bench = _Bench(claims, roles, out)
+    bench = _Bench(claims, roles, out, {} if measured is None else measured)
     verdicts = []
     for key, claim in claims.claims.items():
         if why:

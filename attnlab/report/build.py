@@ -10,14 +10,16 @@ from pathlib import Path
 from attnlab.audit.table import load_table
 from attnlab.claims import DEFAULT
 from attnlab.claims.files import Claims, load_claims
-from attnlab.claims.judge import Verdict, judge
+from attnlab.claims.judge import Cache, Verdict, judge
 from attnlab.claims.roles import Combinations, strata
 from attnlab.errors import ConfigError
 from attnlab.figures.base import FigureContext, gallery
 from attnlab.figures.style import drawing
-from attnlab.report import curve, drawn, forest, glance, multiverse, provenance, table5, verdicts
+from attnlab.report import drawn, forest, glance, multiverse, provenance, readings, table5, verdicts
 from attnlab.report.captions import load_captions
-from attnlab.report.page import Section, Shown, nothing_testable, page, table
+from attnlab.report.curve_tables import combinations_csv
+from attnlab.report.multiverse import LEAST_READINGS
+from attnlab.report.page import Section, nothing_testable, page, table
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study, load
 from attnlab.tables.files import write_bytes
@@ -41,27 +43,30 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
     except OSError as cause:
         raise ConfigError("--out", f"{target} cannot be written ({cause.strerror or cause})") from None
     combinations = strata(claims, conditions)
-    judged = {name: judge(claims, conditions, settings) for name, settings in combinations.items()}
+    measured: dict[str, Cache] = {name: {} for name in combinations}
+    judged = {name: judge(claims, conditions, settings, measured[name]) for name, settings in combinations.items()}
     telling = _telling(judged)
     told = judged[telling] if telling is not None else []
     first = told or next(iter(judged.values()), [])
+    many = sum(not nothing_testable(of) for of in judged.values()) >= LEAST_READINGS
+    if many and only is None:
+        only = ()  # figures of conditions: of a hundred readings nobody could read them
     with drawing(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
         wanted = [name for name in gallery() if conditions.strata and (only is None or name in only)]
         shown = drawn.draw(wanted, FigureContext(others), conditions, captions, told, target)
         tables = _tables(claims, conditions, combinations, target)
-        sections = _sections(study, judged, combinations, telling, tables, target)
-        if sum(not nothing_testable(of) for of in judged.values()) >= multiverse.LEAST_READINGS:
-            more, first_sections = _multiverse(multiverse.analyse(combinations, judged), target)
-            shown, sections = more + shown, [*first_sections, *sections]
+        sections = _sections(study, judged, combinations, telling, tables, target, many)
+        over = readings.of(multiverse.analyse(claims, conditions, combinations, judged, measured), study.path, target) \
+            if many else readings.Page(forest.first_screen(study))
     sections.append(provenance.commands(study))
-    notes = provenance.notes(study, conditions, claims)
+    notes = [*provenance.notes(study, conditions, claims), *over.notes]
     if not conditions.strata:
         notes.insert(0, "there is no complete run in this study, so there is nothing to draw or to judge")
     notes += [f"the figure '{figure.title}' is not drawn: {figure.failed}" for figure in shown if figure.failed]
     text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first,
                 telling if telling is not None and len(judged) > 1 else "", shown,
-                sections, provenance.block(study, conditions, claims), forest.first_screen(study))
+                sections, provenance.block(study, conditions, claims), over.first_screen, over.sections, over.script)
     write_bytes(target / "index.html", text.encode())
     if not quiet:
         _print(notes, next((rows for name, rows in tables if name == telling), None), first, telling, target)
@@ -94,9 +99,9 @@ def _telling(judged: dict[str, list[Verdict]]) -> str | None:
 
 
 def _sections(study: Study, judged: dict[str, list[Verdict]], combinations: Combinations, telling: str | None,
-              tables: list[tuple[str, list[table5.Row]]], target: Path) -> list[Section]:
+              tables: list[tuple[str, list[table5.Row]]], target: Path, many: bool) -> list[Section]:
     """Conditions, Table 5 and claims, in the page and as CSV; what a study of other things cannot say is left out of
-    the page."""
+    the page, and of ``many`` readings the tables of single ones."""
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
     write_bytes(target / "seeds.csv", verdicts.seeds_csv(judged))
     sections = []
@@ -104,7 +109,7 @@ def _sections(study: Study, judged: dict[str, list[Verdict]], combinations: Comb
         section, csv = glance.section(study)
         write_bytes(target / "conditions.csv", csv)
         sections.append(section)
-    if tables and telling is not None:
+    if tables and telling is not None and not many:
         html = "".join((f"<h3>{_escape(name)}</h3>" if name else "") + _table5(rows) for name, rows in tables[:4])
         html += ("<p class=small>Here: validation episodes that were survived, as all of the paper's were (its "
                  "deviations hold no penalty): mean over seeds ± deviation over the episodes of a seed, as the paper's "
@@ -112,38 +117,12 @@ def _sections(study: Study, judged: dict[str, list[Verdict]], combinations: Comb
                  "of eqs 7-9 in the rewards. † The paper's text does not tell which of two cells this is.</p>")
         sections.append(Section("table5", "Table 5, side by side", html))
     if len(judged) > 1:
-        write_bytes(target / "combinations.csv", multiverse.combinations_csv(combinations, judged))
-        if telling is not None:
+        write_bytes(target / "combinations.csv", combinations_csv(combinations, judged))
+        if telling is not None and not many:
             sections.append(verdicts.matrix(judged))
     if telling is not None:
         sections.append(verdicts.section(judged[telling], telling))
     return sections
-
-
-def _multiverse(found: multiverse.Multiverse, target: Path) -> tuple[list[Shown], list[Section]]:
-    """The figures and the sections of a study of many readings."""
-    for name, csv in (("effects", multiverse.effects_csv), ("curve", multiverse.curve_csv),
-                      ("joint", multiverse.joint_csv)):
-        write_bytes(target / f"{name}.csv", csv(found))
-    paper = "Each open point of the text may be read in several ways; the paper ran one."
-    shown = []
-    if found.measures:
-        lead = curve.leading(found)
-        told = [f"{m.title}: {found.statement(i)}" for i, m in enumerate(found.measures)
-                if found.statement(i) not in ("not told from chance", "mixed")]
-        title, factor = found.measures[lead].title, found.mover(lead)
-        shown = [Shown("multiverse_curves", "Specification curves", paper, "; ".join(told[:12]) + "." if told else
-                       "No measure is told from chance.", drawn.save(curve.curves(found), "multiverse_curves", target),
-                       how="A dot a reading with its interval: blue as claimed, orange the opposite, grey not clear."),
-                 Shown("multiverse_dashboard", f"The curve of {title} and what each reading has", paper,
-                       f"{factor[0]} holds {100 * factor[1]:.0f} % of the variance of its effects over the readings.",
-                       drawn.save(curve.dashboard(found, lead), "multiverse_dashboard", target))]
-    best = max(range(len(found.ids)), key=lambda i: (found.share(i)[0] if found.share(i)[1] else -1.0, -i))
-    most = f"{found.ids[best]} ({found.titles[best]}) holds most often, in {100 * found.share(best)[0]:.0f} % of the " \
-           "readings that can test it."
-    shown.append(Shown("multiverse_shares", "In how many readings each claim holds", paper, most,
-                       drawn.save(curve.shares(found), "multiverse_shares", target)))
-    return shown, curve.sections(found)
 
 
 def _escape(text: str) -> str:

@@ -1,8 +1,9 @@
-"""The page: one HTML file that needs no network and no scripts. Everything that a user named is escaped."""
+"""The page: one HTML file that needs no network, and no scripts. Everything that a user named is escaped."""
 
 from __future__ import annotations
 
 import base64
+import hashlib
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -44,26 +45,36 @@ def chip(verdict: Finding, text: str = "") -> str:
 
 
 def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict], where: str,
-         figures: Sequence[Shown], sections: Sequence[Section], provenance: str, found: str = "") -> str:
+         figures: Sequence[Shown], sections: Sequence[Section], provenance: str, found: str = "",
+         first: Sequence[Section] = (), script: str = "") -> str:
     """The whole page. ``where``: the settings that the verdicts are for, if there are others; ``sections`` follow the
-    figures; ``provenance`` is HTML, and so is ``found``, the first screen."""
+    figures; ``provenance`` is HTML, and so is ``found``, the first screen; sections in ``first`` follow that one.
+    ``script``: the only code that the page lets run."""
     style = (Path(__file__).parent / "style.css").read_text()
-    links = [*([("found", "What was found")] if found else []), ("verdicts", "Verdicts"), ("figures", "Figures"),
+    links = [*([("found", "What was found")] if found else []), *((s.key, s.title) for s in first),
+             ("verdicts", "Verdicts"), *([("figures", "Figures")] if figures else []),
              *((s.key, s.title) for s in sections), ("provenance", "Provenance")]
+    mark = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    code = f"; script-src 'sha256-{mark}'" if script else ""
     parts = [
         "<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; img-src data:; '
-        'style-src \'unsafe-inline\'">',
+        f'style-src \'unsafe-inline\'{code}">',
         '<link rel="icon" href="data:,">', f"<title>{escape(title)}</title>", f"<style>\n{style}</style>", "</head>",
         "<body>", "<main>", f"<h1>{escape(title)}</h1>", f'<p class="lead">{escape(lead)}</p>',
         _notes(notes), "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>",
-        found, headline(claims, verdicts, where), '<h2 id="figures">Figures</h2>',
+        found, *map(_section, first), headline(claims, verdicts, where),
+        '<h2 id="figures">Figures</h2>' if figures else "",
         *(_figure(shown, {v.id: v for v in verdicts}) for shown in figures),
-        *(f'<h2 id="{s.key}">{escape(s.title)}</h2>\n{s.html}' for s in sections),
+        *map(_section, sections),
         PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1],
-        "</main>", "</body>", "</html>"]
+        "</main>", f"<script>{script}</script>" if script else "", "</body>", "</html>"]
     return "\n".join(part for part in parts if part) + "\n"
+
+
+def _section(section: Section) -> str:
+    return f'<h2 id="{section.key}">{escape(section.title)}</h2>\n{section.html}'
 
 
 def _notes(notes: Sequence[str]) -> str:

@@ -16,7 +16,7 @@ from attnlab.errors import ConfigError
 from attnlab.launch.multiverse import balanced, design, imbalance, load_factors
 from attnlab.launch.variants import read_variants
 from attnlab.reading import Reading
-from attnlab.report import curve, multiverse
+from attnlab.report import curve, curve_tables, multiverse, told
 from attnlab.results import load
 from attnlab.results.conditions import Conditions
 from attnlab.tables.flat import dig
@@ -107,8 +107,9 @@ def twelve(tmp_path_factory):
     conditions, claims = Conditions(load(study)), load_claims("dinocera2014")
     claims.claims = {key: claims.claims[key] for key in ("C1", "C18")}
     combinations = strata(claims, conditions)
-    judged = {name: judge(claims, conditions, settings) for name, settings in combinations.items()}
-    return combinations, judged, multiverse.analyse(combinations, judged)
+    measured = {name: {} for name in combinations}
+    judged = {name: judge(claims, conditions, settings, measured[name]) for name, settings in combinations.items()}
+    return combinations, judged, multiverse.analyse(claims, conditions, combinations, judged, measured)
 
 
 def test_an_effect_that_was_put_in_is_found(twelve):
@@ -121,28 +122,32 @@ def test_an_effect_that_was_put_in_is_found(twelve):
     assert moved["need_k", "2"].difference == 0.0
     assert found.share(found.ids.index("C18")) == (0.5, 12)
     assert found.share(found.ids.index("C1"))[1] == 0
-    statements, claims = curve.sections(found)
-    assert "crash=safety_distance +100" in claims.html
-    assert "hangs on crash" in statements.html and "all 64 exchanges of 6 seeds" in statements.html
-    assert len(multiverse.combinations_csv(combinations, judged).decode().splitlines()) == 13
+    comparisons, moves, claims = told.sections(found)
+    assert "crash=safety_distance +100" in claims.html and "crash 100 %" in moves.html
+    assert "hangs on crash" in comparisons.html and "all 64 exchanges of 6 seeds" in comparisons.html
+    screen = told.first_screen(found)
+    assert "safety mean</b> [C18], CR against NCR, hangs on crash: higher, as claimed, with safety_distance 6 of 6; " \
+        "with contact 0 of 6." in screen
+    assert len(curve_tables.combinations_csv(combinations, judged).decode().splitlines()) == 13
 
 
 def test_signed_effects_and_their_joint_test(twelve):
-    found = twelve[2]
-    safety = next(m for m, of in enumerate(found.measures) if of.claim == "C18")
-    assert found.differences.shape == (12, 1, 6)  # C1 has no values in so few episodes
+    found = twelve[2].curves
+    assert [(of.claim, of.whom) for of in found.contrasts] == [("C18", "NCR")]  # C1 has no values in so few episodes
+    safety = 0
+    assert found.differences.shape == (12, 1, 6)
     # half of the readings say so clearly, half the opposite: the median is between, and the curve says nothing together
     assert found.joint.clear[safety] == 6 and found.joint.opposite[safety] == 6
     assert found.mover(safety) == ("crash", pytest.approx(1.0, abs=0.1))
     assert (found.low[:, safety] < found.effects[:, safety]).all()
-    rows = multiverse.curve_csv(found).decode().splitlines()
-    assert rows[0].startswith("measure,claim,reading,effect_d") and len(rows) == 1 + 12
-    assert multiverse.joint_csv(found).decode().count("\n") == 2
+    rows = curve_tables.curve_csv(twelve[2], found).decode().splitlines()
+    assert rows[0].startswith("measure,claim,role,against,reading,effect_d") and len(rows) == 1 + 12
+    assert curve_tables.joint_csv(twelve[2], found).decode().count("\n") == 2
 
 
 def test_its_figures_are_drawn(twelve):
     from attnlab.figures.style import drawing
     with drawing():
-        for figure in (curve.curves(twelve[2]), curve.dashboard(twelve[2], curve.leading(twelve[2])),
-                       curve.shares(twelve[2])):
+        found = twelve[2]
+        for figure in (curve.curves(found.curves), curve.dashboard(found, found.curves, 0), curve.shares(found)):
             assert figure.axes

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from attnlab.report.multiverse import _factors
+from attnlab.report.multiverse import factors_of
 
 
 def test_the_name_of_a_combination_is_left_out():
     readings = [{"reading.need_k": k, "variant": name} for k, name in zip("1212", "abcd", strict=True)]
-    levels, defaults = _factors(readings)
+    levels, defaults = factors_of(readings)
     assert set(levels) == {"need_k"}
     assert defaults["need_k"] == "1"

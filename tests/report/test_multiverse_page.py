@@ -1,0 +1,143 @@
+"""The page of a planted multiverse: everything in its order, readable without its script, nothing run but that."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+
+import numpy as np
+import pytest
+
+from attnlab.claims.files import load_claims
+from attnlab.report import kept, readings, told
+from attnlab.report.contrasts import Contrast, contrasts, in_words
+from attnlab.report.multiverse import Multiverse, curves_of
+from attnlab.report.page import page
+
+HOSTILE = "</script><img src=x onerror=\"document.title='owned'\">"
+PROBE = """<!doctype html><meta charset="utf-8"><iframe id=page src="%s" style="width:390px;height:900px">
+</iframe><pre id=told></pre><script>
+document.getElementById('page').onload = function () {
+  var page = this.contentDocument, by = page.querySelector('[name=by]'), found = [];
+  function shown() { return page.querySelector('path[data-f="1"][data-l="0"]').getAttribute('d'); }
+  found.push(shown()); by.value = '1'; by.onchange(); found.push(shown());
+  document.getElementById('told').textContent = JSON.stringify({blocks: found, title: page.title,
+    pick: page.querySelector('.pick').hidden, wide: page.documentElement.scrollWidth});
+};</script>"""
+CLAIMS = load_claims("dinocera2014")
+COLUMNS = "reading,crash,need_k,sound,reason,survival,meals,kept\n"
+READINGS = COLUMNS + """r0,contact,1,true,,0.97,3.2,true
+r1,distance,2,true,,0.95,2.0,true
+r2,contact,2,false,NCR survives 81 % at first,0.81,1.0,false
+r3,distance,<b>1</b>,true,,0.99,4.0,false
+"""
+
+
+def planted(name: str = "crash") -> Multiverse:
+    """Twenty readings, ten seeds: a measure that is robust, one that hangs on a factor, and noise."""
+    rng = np.random.default_rng(1)
+    levels = {name: ["contact", "distance"] * 10, "need_k": [str(i % 3) for i in range(20)]}
+    x = rng.standard_normal((20, 4, 10))
+    x[:, 0] += 2.0
+    x[::2, 1] += 2.5
+    x[:5, 2] = np.nan
+    wanted = [Contrast(f"C{m}", 0, f"measure {m}", "treatment", "control", "CR", "NCR", -1.0, f"m{m}", False)
+              for m in range(4)]
+    holds = np.where(rng.random((2, 20)) < 0.5, 1.0, 0.0)
+    return Multiverse(["C1", "C2"], ["one", "two"], [f"r{i}" for i in range(20)], holds, holds > 1, levels,
+                      {factor: of[0] for factor, of in levels.items()}, [], curves_of(wanted, x, levels))
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """(the page's HTML, its folder) of a multiverse with a hostile factor and a file of readings."""
+    from attnlab.figures.style import drawing
+    study = tmp_path_factory.mktemp("multiverse")
+    (study / "readings.csv").write_text(READINGS)
+    (study / "figures").mkdir()
+    with drawing():
+        over = readings.of(planted(HOSTILE), study, study)
+    html = page("many", "", over.notes, CLAIMS, [], "", [], [], "", over.first_screen, over.sections, over.script)
+    (study / "index.html").write_text(html)
+    return html, study
+
+
+def test_the_order_of_the_page(built):
+    html, study = built
+    titles = re.findall(r"<h[23][^>]*>(.*?)<", html)
+    assert [title.split(":")[0].strip() for title in titles[:5]] == [
+        "What was found", "Robust", "Hang on one factor", "Noise", "The specification curve"]
+    assert titles[5:8] == ["Every comparison", "What moves each claim", "In how many readings each claim holds"]
+    assert titles.index("Which readings are sound") > titles.index("What moves each claim")
+    for name in ("curve", "joint", "shares", "effects"):
+        assert (study / f"{name}.csv").is_file()
+    assert (study / "figures" / "multiverse_dashboard.svg").is_file()
+
+
+def test_it_says_all_without_its_script(built):
+    body = re.sub(r"<script.*?</script>", "", built[0], flags=re.S)
+    assert "<b>measure 0</b> [C0] is lower in CR than in NCR in 20 of 20 readings, as claimed." in body
+    assert "measure 2 [C2]; measure 3 [C3]." in body and "of 15</td>" in body  # five readings have no value
+    assert body.count("<path data-f=") == 5 and 'class="dots claimed" d="M' in body
+    assert "hidden>" in body  # what only a script can do is not shown
+
+
+def test_nothing_runs_but_its_script(built):
+    html = built[0]
+    code = re.findall(r"<script>(.*?)</script>", html, re.S)
+    mark = base64.b64encode(hashlib.sha256(code[0].encode()).digest()).decode()
+    assert len(code) == 1 and f"script-src 'sha256-{mark}'" in html
+    assert "<img" not in html and "<b>1</b>" not in html
+    data = json.loads(re.search(r'id="spec-data">(.*?)</script>', html, re.S)[1])
+    assert [len(of["d"]) for of in data["curves"]] == [20] * 4 and data["curves"][2]["d"][0] is None
+
+
+def test_in_a_browser(built, browser):
+    """The script draws without a word, in another order when asked, and the page is as narrow as a phone."""
+    study = built[1]
+    probe = study / "probe.html"
+    probe.write_text(PROBE % (study / "index.html").as_uri())
+    out, err = browser("--allow-file-access-from-files", "--enable-logging=stderr", "--v=0",
+                       "--virtual-time-budget=5000", "--dump-dom", probe.as_uri())
+    found = json.loads(re.search(r"<pre id=\"?told\"?>(.*?)</pre>", out, re.S)[1])
+    assert found["blocks"][0].count("M") > 1 and found["blocks"][1].count("M") == 1  # sorted, a level is one block
+    assert found["title"] == "many" and found["pick"] is False and found["wide"] <= 390
+    assert "CONSOLE" not in err, [line for line in err.splitlines() if "CONSOLE" in line]
+
+
+def test_casualties_and_balance(tmp_path):
+    assert kept.section(tmp_path) == (None, "")
+    (tmp_path / "readings.csv").write_text(READINGS)
+    section, note = kept.section(tmp_path)
+    assert not note and "4 readings were tried" in section.html
+    assert "1 are not sound, 2 were kept, 1 sound ones were not needed" in section.html
+    assert "NCR survives 81 % at first: 1." in section.html and "crash=contact" in section.html
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    ("", "has no rows"), (COLUMNS, "has no rows"), ("reading,kept\nr0,true\n", "has no column sound"),
+    (b"\xff\xfe\x00", "cannot be read")])
+def test_a_file_of_readings_that_says_nothing_is_named(tmp_path, text, words):
+    (tmp_path / "readings.csv").write_bytes(text if isinstance(text, bytes) else text.encode())
+    section, note = kept.section(tmp_path)
+    assert section is None and words in note
+
+
+def test_every_signed_comparison_against_every_control():
+    found = contrasts(CLAIMS)
+    own = {of.measure for of in found if of.whom == "NCR"}
+    assert len(own) >= 12 and own == {of.measure for of in found if of.whom == "NCR with CR's states"}
+    assert len({(of.node, of.whom, of.order) for of in found}) == len(found)
+    eat = next(of for of in found if of.measure == "reward (eat, extrinsic)")
+    assert (eat.claim, eat.sign, eat.told(1.0), eat.told(-1.0)) == ("C6", -1.0, "lower", "higher")
+    convergence = next(of for of in found if of.order)
+    assert convergence.told(1.0) == "earlier"
+    assert in_words({"name": "episode", "column": "hunger_max", "phase": "train"}) == "hunger max (in training)"
+
+
+def test_nothing_to_compare_is_said():
+    found = planted()
+    found.curves = None
+    assert "nothing to compare" in told.first_screen(found) and len(told.sections(found)) == 1
