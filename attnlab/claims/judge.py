@@ -122,7 +122,7 @@ class _Bench:
                 return PartVerdict(part, Finding.UNTESTABLE, taken)
             values[role] = {seed: value for seed, value in taken.items() if value == value}
         levels = {role: mean(list(of.values())) for role, of in values.items()}
-        sample = _sample(part, values)
+        sample = compared(part, values)
         if len(sample) < rules.least_seeds:
             what = "paired seeds" if part.test in PAIRED else "seeds with a value"
             alone = Interval(mean(list(sample.values())), NAN, NAN)
@@ -185,7 +185,7 @@ class _Bench:
                            p=p, sample=sample, levels=levels)
 
 
-def _sample(part: Part, values: Mapping[str, Mapping[int, float]]) -> dict[int, float]:
+def compared(part: Part, values: Mapping[str, Mapping[int, float]]) -> dict[int, float]:
     """Seed -> what is compared: a difference, a sign in %, or a level."""
     ours = values[part.role]
     if part.test not in PAIRED:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attnlab.cli.explain import explain
 from attnlab.cli.main import hydra_application, opened
 from attnlab.cli.store import store_options
 from attnlab.loading import load_all
 from attnlab.paths import conf_dir
+
+if TYPE_CHECKING:
+    from attnlab.launch.compose import Composer
 
 
 def composed(overrides: Sequence[str]) -> dict[str, Any]:
@@ -36,6 +39,21 @@ def composed(overrides: Sequence[str]) -> dict[str, Any]:
     except (HydraException, OmegaConfBaseException) as cause:
         raise explain(cause) or cause from None
     return named_by_file(found, choices)
+
+
+def composer() -> Composer:
+    """What composes any number of configs, for a study whose conditions come one after the other."""
+    from hydra import compose, initialize_config_dir
+    from hydra.core.global_hydra import GlobalHydra
+
+    from attnlab.launch.compose import Composer
+    from attnlab.launch.sweeper import register_with_hydra
+    load_all()
+    store_options()
+    register_with_hydra()
+    with initialize_config_dir(str(conf_dir()), version_base="1.3"):
+        master = compose("config", [], return_hydra_config=True)
+        return Composer(GlobalHydra.instance().config_loader(), master)
 
 
 def swept(overrides: Sequence[str]) -> Path:

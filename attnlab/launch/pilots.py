@@ -17,6 +17,7 @@ from attnlab.launch.jobs import Job, check_once
 from attnlab.launch.multiverse import confounded, imbalance
 from attnlab.launch.place import check_place
 from attnlab.launch.variants import Design, Pilot
+from attnlab.stats.soundness import unsound
 from attnlab.tables.readings import FILE, TABLE, Decided, Tried, read_decided, write_decided
 from attnlab.tables.study import FILE as STUDY_FILE
 
@@ -126,9 +127,7 @@ def judged(name: str, levels: dict[str, str], folders: Sequence[Path], pilot: Pi
     lived = [share for table in tables for share in table["survival"]]
     survival = 100 * fsum(lived) / len(lived)
     meals, drinks = (sum(count for table in tables for count in table[kind]) for kind in ("meals", "drinks"))
-    reasons = [f"survives {survival:.2f} %"] * (survival <= pilot.survival) + ["nobody eats"] * (not meals) + \
-        ["nobody drinks"] * (not drinks)
-    return Tried(name, dict(levels), survival, meals, drinks, "; ".join(reasons))
+    return Tried(name, dict(levels), survival, meals, drinks, unsound(survival, meals, drinks, pilot.survival))
 
 
 def take(decided: Decided, size: int) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 from attnlab.config import COSMETIC
 from attnlab.errors import ConfigError, nearest
 from attnlab.settings import build, setting
+from attnlab.stats.soundness import EARLY_EPISODES, LEAST_EARLY
 from attnlab.tables.ranges import seeds
 
 DESIGNS = ("multiverse",)
@@ -22,8 +23,8 @@ class Pilot:
     somebody eats and drinks. The pilots' seeds take no part in the study."""
     condition: str = setting("plain", "the condition that the pilots run")
     seeds: str = setting("1000-1001", "of the pilots; none of the study's")
-    episodes: int = setting(100, "training episodes of a pilot", low=1)
-    survival: float = setting(90.0, "a sound reading's mean survival in them is above this", unit="%", low=0, high=100)
+    episodes: int = setting(EARLY_EPISODES, "training episodes of a pilot", low=1)
+    survival: float = setting(LEAST_EARLY, "a sound reading's mean survival in them is above this", unit="%", low=0, high=100)
     candidates: int = setting(512, "readings of the design, which are tried in order until there are enough", low=2)
 
     @property

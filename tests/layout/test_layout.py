@@ -37,8 +37,8 @@ FLOORS = (
     ("launch",),
     ("clusters",),
     ("cli", "testing", "clock"),
-    ("certify", "appraise", "arena", "calibrate", "replay", "gym", "fig1", "plot", "parts", "new", "api", "__main__",
-     "export", "rerun", "retry", "watch", "work"),
+    ("certify", "appraise", "arena", "calibrate", "replay", "search", "gym", "fig1", "plot", "parts", "new", "api",
+     "__main__", "export", "rerun", "retry", "watch", "work"),
     ("render",),
 )
 TOP = {  # modules that are no commands
