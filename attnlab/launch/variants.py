@@ -24,7 +24,8 @@ class Pilot:
     condition: str = setting("plain", "the condition that the pilots run")
     seeds: str = setting("1000-1001", "of the pilots; none of the study's")
     episodes: int = setting(EARLY_EPISODES, "training episodes of a pilot", low=1)
-    survival: float = setting(LEAST_EARLY, "a sound reading's mean survival in them is above this", unit="%", low=0, high=100)
+    survival: float = setting(LEAST_EARLY, "a sound reading's mean survival in them is above this", unit="%", low=0,
+                              high=100)
     candidates: int = setting(512, "readings of the design, which are tried in order until there are enough", low=2)
 
     @property
