@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from studies import CR, FIXED, LEARNED, NCR, PLAIN, SAME
+from studies import BY_NAME, CR, FIXED, LEARNED, NCR, PLAIN, SAME
 
 from attnlab.claims import DEFAULT, claims_hash
 from attnlab.claims.findings import Finding
@@ -31,7 +31,8 @@ def made(folder: Path, study: str) -> dict[str, Any]:
     """What a study was made with; empty if that is not known, or if it was made under other rules than today's."""
     file = folder / study / "made.json"
     with_ = dict(json.loads(file.read_text())) if file.exists() else {}
-    return with_ if with_.get("claims_sha256") == claims_hash(DEFAULT) else {}
+    claims = BY_NAME[study].claims if study in BY_NAME else DEFAULT
+    return with_ if with_.get("claims_sha256") == claims_hash(claims) else {}
 
 
 def contrast(folder: Path, study: str, quantity: str, treatment: str, control: str) -> Row | None:
@@ -124,16 +125,20 @@ def second(folder: Path) -> str:
 
 def third(folder: Path) -> str:
     """The two controls: what the bigger table does and what curiosity does."""
-    early, bigger = (contrast(folder, "controls", EARLY, *pair) for pair in ((CR, SAME), (SAME, PLAIN)))
-    safe = [contrast(folder, "controls", "safety", CR, control) for control in (SAME, PLAIN)]
+    study = "bigger_table" if made(folder, "bigger_table") else "controls"  # the same conditions, more seeds
+    early, bigger = (contrast(folder, study, EARLY, *pair) for pair in ((CR, SAME), (SAME, PLAIN)))
+    safe = [contrast(folder, study, "safety", CR, control) for control in (SAME, PLAIN)]
     if early is None or bigger is None or None in safe:
-        return MISSING.format("controls")
+        return MISSING.format(study)
     words = [f"{side(row, 'safer', 'less safe', 'neither clearly safer nor clearly less safe')} than {control} "
              f"({difference(row)})" for row, control in zip(safe, (SAME, PLAIN), strict=True) if row]
     costs = side(bigger, "gains", "costs", "neither clearly costs nor clearly gains")
+    older = contrast(folder, "controls", EARLY, CR, SAME) if study != "controls" else None
+    before = f"; the {older['seeds']} seeds of controls: {difference(older)}" if older else ""
     return (f"Against the same 72 states with nothing curious in the reward ({SAME}), CR survives {side(early)} in the "
-            f"first half of training ({difference(early)}), while the bigger table by itself, {SAME} against {PLAIN}, "
-            f"{costs} survival there ({difference(bigger)}); CR is {words[0]} and {words[1]}.")
+            f"first half of training ({difference(early)}{before}), while the bigger table by itself, {SAME} against "
+            f"{PLAIN}, {costs} survival there ({difference(bigger)}); CR is {words[0]} and {words[1]} "
+            f"({study}, {early['seeds']} seeds).")
 
 
 def fourth(folder: Path) -> str:

@@ -23,6 +23,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import contrasts  # noqa: E402  a folder of scripts, no package
+import own_tables  # noqa: E402
 import page  # noqa: E402
 from studies import BY_NAME, SHORT, STUDIES, Study  # noqa: E402
 
@@ -57,7 +58,8 @@ def main() -> int:
 def run(study: Study, outputs: Path, keep: bool, short: bool) -> float | None:
     """Do the runs of a study and its report; minutes of wall time, None if a run failed."""
     typed = [word for word in study.typed if not (short and word.startswith("seed="))]
-    typed += [*(SHORT if short else ()), f"outputs={outputs}", *(() if keep else ("fresh=true",))]
+    typed += [*((*SHORT, *study.short) if short else ()), f"outputs={outputs}", *(() if keep else ("fresh=true",))]
+    typed += ["report=false", "picture=false"] if study.figures else []  # its page is made when it is collected
     started = time.monotonic()
     done = subprocess.run([sys.executable, "-m", "attnlab", *typed], check=False)
     return (time.monotonic() - started) / 60 if done.returncode == 0 else None
@@ -69,14 +71,20 @@ def collect(study: Study, made: Path, target: Path, minutes: float | None = None
     shutil.rmtree(target, ignore_errors=True)
     target.mkdir(parents=True)
     report = made / "report"
-    for file in sorted(report.glob("*.csv")) + [report / "figures" / f"{name}.png" for name in FIGURES]:
-        if file.exists():
+    if study.figures:
+        from attnlab.report.build import build
+        shutil.rmtree(report, ignore_errors=True)
+        build(made, None, None, None, quiet=True, only=study.figures)
+    for file in sorted(report.glob("*.csv")) + [report / "figures" / f"{name}.png"
+                                                for name in (*FIGURES, *study.figures)]:
+        if file.exists() and file.stem not in study.leave:
             shutil.copy(file, target)
     if study.page and (report / "index.html").exists():
         shutil.copy(report / "index.html", target / "report.html")
     loaded = attnlab.load(made)
     if study.pairs:
         contrasts.write(target / "contrasts.csv", contrasts.rows(loaded, study.pairs))
+    own_tables.write(study.name, loaded, target)
     (target / "made.json").write_text(json.dumps(made_with(study, loaded, minutes), indent=1) + "\n")
 
 

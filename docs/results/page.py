@@ -7,8 +7,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import found
+import own
 from found import Row
-from studies import NCR, STUDIES, Study
+from studies import NCR, OWN, STUDIES, Study
 
 from attnlab.claims.findings import Finding
 
@@ -46,6 +47,8 @@ def page(folder: Path) -> str:
                      "All live in the same worlds from the same starts; no model was tuned for it. `surprise` is also "
                      "called `litman_itti`: one model, named once.")
     parts += [curious(folder), *multiverse(folder)]
+    for study in OWN:
+        parts += own_study(folder, study)
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -191,6 +194,19 @@ def multiverse(folder: Path) -> list[str]:
             f"`python -m attnlab +experiment=multiverse`: {len(rows)} readings of the paper's open sentences "
             "([multiverse](multiverse)).",
             grid(("claim", "testable in", "holds in", "moved most by (difference of shares in points)"), shown)]
+
+
+def own_study(folder: Path, study: Study) -> list[str]:
+    """A study of our own question: its paragraph, its figure, how its claims fare."""
+    if not (folder / study.name).is_dir():
+        return []
+    kept = f" The whole page: [report.html]({study.name}/report.html)." \
+        if (folder / study.name / "report.html").exists() else ""
+    figure, (heads, *rows) = study.figures[0], own.steps(study.name, folder)
+    return [f"## {study.name}: {study.what}", own.text(study.name, folder) + kept,
+            f"![{study.what}]({study.name}/{figure}.png)", grid(heads, rows),
+            f"What we expected, by rules written before these runs ([conf/claims/{study.claims}.yaml]"
+            f"(../../conf/claims/{study.claims}.yaml)):", own.verdicts(study.name, folder)]
 
 
 def readme(text: str, folder: Path) -> str:

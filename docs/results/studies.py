@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from attnlab.claims import DEFAULT
+
 CR, NCR = "CR", "NCR"
 SAME, PLAIN = "NCR, same states", "NCR, plain"
+SHUFFLED, RANDOM_W = "CR, liking shuffled", "CR, random w"
+OWN_LEVEL, LEVELS = "its own level", ("held at low", "held at LH", "held at HH")
+CAPS = ("1.8", "2.2", "2.6", "3")  # looks a second
 FIXED, LEARNED, MOTIVATED = "fixed at 4", "learned (2012, NCR)", "motivated (2014, CR)"
 SHORT = ("seed=0-1", "train_episodes=12", "validation_episodes=4", "max_cycles=150")  # does it work? in minutes
 
@@ -13,12 +18,17 @@ SHORT = ("seed=0-1", "train_episodes=12", "validation_episodes=4", "max_cycles=1
 @dataclass(frozen=True)
 class Study:
     """``typed``: arguments of ``python -m attnlab``; ``pairs``: (condition, the one it is held against), "" for every
-    other condition; ``page``: is its whole report kept here?"""
+    other condition; ``page``: is its whole report kept here? ``claims``: the file it is judged by; ``figures``: those
+    that its page has, all if empty; ``leave``: tables that are not kept; ``short``: typed, too, with --short."""
     name: str
     typed: tuple[str, ...]
     what: str
     pairs: tuple[tuple[str, str], ...] = ()
     page: bool = False
+    claims: str = DEFAULT
+    figures: tuple[str, ...] = ()
+    leave: tuple[str, ...] = ()
+    short: tuple[str, ...] = ()
 
     @property
     def command(self) -> str:
@@ -26,6 +36,24 @@ class Study:
         return " ".join(["python -m attnlab", *self.typed])
 
 
+# Studies of this project's own questions, each judged by a claims file of its own.
+OWN = (
+    Study("bigger_table", ("+experiment=bigger_table",), "CR and its controls, a ladder of five, planar",
+          ((SAME, PLAIN), (SHUFFLED, SAME), (CR, SHUFFLED), (RANDOM_W, CR), (CR, SAME), (CR, PLAIN)), page=True,
+          claims="bigger_table", figures=("steps", "survival")),
+    Study("matched_budget", ("+experiment=matched_budget",),
+          "learned, fixed and random clocks under equal caps, planar",
+          tuple((f"looks_per_s={cap} {one}", f"looks_per_s={cap} {other}") for cap in CAPS
+                for one, other in ((CR, SAME), (CR, PLAIN), (PLAIN, "fixed at 4"), (PLAIN, "random"))), page=True,
+          claims="matched_budget", figures=("budget_front",), leave=("seeds",)),
+    Study("where_curiosity_pays", ("+experiment=where_curiosity_pays",),
+          "a map of 75 worlds, 250 and 50 episodes, planar",
+          page=True, claims="where_curiosity_pays", figures=("phase_map",),
+          leave=("seeds", "verdicts", "effects", "curve", "joint", "table5"),
+          short=("world.source_distance_m=1.0,4.03", "world.obstacles=2,4")),
+    Study("clamped_levels", ("+experiment=clamped_levels",), "CR with its curiosity level held in validation, planar",
+          tuple((level, OWN_LEVEL) for level in LEVELS), page=True, claims="clamped_levels", figures=("held_levels",)),
+)
 STUDIES = (
     Study("cr_vs_ncr", ("+experiment=cr_vs_ncr", "-m", "seed=0-19"), "CR and NCR on pybullet, reading `inferred`",
           ((CR, NCR),)),
@@ -41,5 +69,6 @@ STUDIES = (
           ((FIXED, LEARNED), (MOTIVATED, LEARNED), ("", LEARNED)), page=True),
     Study("curiosities", ("+experiment=curiosities", "-m", "seed=0-4"), "every model of curiosity, planar",
           (("", NCR),), page=True),
+    *OWN,
 )
 BY_NAME = {study.name: study for study in STUDIES}
