@@ -125,9 +125,9 @@ def sign_flip_p(values: npt.ArrayLike, reference: float = 0.0, draws: int = 10_0
     least = seen - 1e-9 * max(1.0, seen)
     if n > EXACT:
         signs = np.random.default_rng([seed, n]).choice([-1.0, 1.0], (draws, n))
-        return (int((abs(signs @ x) >= least).sum()) + 1) / (draws + 1)
+        return (int((abs(np.einsum("ij,j->i", signs, x)) >= least).sum()) + 1) / (draws + 1)
     first, second = _halves(n)
-    a, b = first @ x[:n // 2], np.sort(second @ x[n // 2:])
+    a, b = np.einsum("ij,j->i", first, x[:n // 2]), np.sort(np.einsum("ij,j->i", second, x[n // 2:]))
     beyond = b.size - np.searchsorted(b, least - a, side="left") + np.searchsorted(b, -least - a, side="right")
     if least <= 0:
         return 1.0

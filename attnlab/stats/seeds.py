@@ -75,7 +75,7 @@ def bootstrap_band(values: npt.ArrayLike, confidence: float = 0.95, resamples: i
     weights = np.zeros((resamples, n))
     np.add.at(weights, (np.arange(resamples)[:, None], resampled(n, resamples, seed)), 1.0)
     with np.errstate(invalid="ignore", divide="ignore"):
-        drawn = (weights @ filled) / (weights @ present.astype(float))
+        drawn = np.einsum("rs,sx->rx", weights, filled) / np.einsum("rs,sx->rx", weights, present.astype(float))
     tail = (1 - confidence) / 2
     low, high = nothing.copy(), nothing.copy()
     some = count >= 2
