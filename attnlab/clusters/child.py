@@ -20,6 +20,7 @@ from attnlab.launch.worker import FAILED, LOST, WHERE, work
 from attnlab.paths import PACKAGE
 from attnlab.tables.claim import BEAT_S, Claim
 from attnlab.tables.files import read_json, write_json
+from attnlab.tables.processes import signal_name
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -132,7 +133,7 @@ class Child:
             return [self.job]
         about = read_json(self.job.folder / "run.json") or {}
         if about.get("status") == "running" or about.get("claim") != self.claim.token:
-            why = self.why or (f"the process died of {_signal_name(-code)}" if code < 0 else
+            why = self.why or (f"the process died of {signal_name(-code)}" if code < 0 else
                                f"the process ended with exit code {code}" +
                                ("" if code == FAILED else " before the run was complete"))
             try:
@@ -174,10 +175,3 @@ def _innermost(file: Path) -> str:
     chosen = next((f for f in frames if str(Path(f[0]).parent) in theirs), None) or \
         next((f for f in frames if Path(f[0]).is_relative_to(PACKAGE)), None) or (frames[0] if frames else None)
     return f"{chosen[0]}:{chosen[1]} ({chosen[2]})" if chosen else "no place that could be told"
-
-
-def _signal_name(number: int) -> str:
-    try:
-        return f"{signal.Signals(number).name} (signal {number})"
-    except ValueError:
-        return f"signal {number}"

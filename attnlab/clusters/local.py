@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import wait
 from typing import TYPE_CHECKING
 
-from attnlab.clusters.base import Cluster, Patience, cores
+from attnlab.clusters.base import Cluster, Patience
 from attnlab.clusters.child import Child, context_for
 from attnlab.console import undisturbed
 from attnlab.launch.jobs import Job
@@ -18,6 +18,7 @@ from attnlab.launch.shared import Shared
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.tables.claim import Claim
+from attnlab.tables.processes import cores
 
 if TYPE_CHECKING:
     from attnlab.clusters.child import Context

@@ -8,11 +8,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from attnlab.clusters.base import cores
 from attnlab.clusters.elsewhere import LOOK_S, TaskParams, Tasks, work_on
 from attnlab.launch.jobs import Job
 from attnlab.registry import register
 from attnlab.settings import setting
+from attnlab.tables.processes import cores
 
 
 @register("cluster", "ray")

@@ -6,7 +6,7 @@ import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attnlab.config import COSMETIC, RunSettings
 from attnlab.launch import engines, robots
@@ -19,6 +19,9 @@ from attnlab.robot.keeping import CHECKPOINT
 from attnlab.tables.code import code
 from attnlab.tables.ranges import compact, seeds
 from attnlab.tables.study import FILE, Condition, grow
+
+if TYPE_CHECKING:
+    from attnlab.results.load import Study
 
 
 def drive(jobs: Sequence[Job], typed: Sequence[str]) -> int:
@@ -104,13 +107,12 @@ def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Seque
     if not named:
         return
     made: dict[str, Path] = {}
-    if what := " and the ".join(["picture"] * settings.picture + ["report"] * settings.report):
-        print(f"drawing the {what}", file=sys.stderr, flush=True)
     if settings.picture:
         from attnlab.report import survival_picture
-        made["picture"] = survival_picture(folder)
+        print("drawing the picture", file=sys.stderr, flush=True)
+        made["picture"] = survival_picture(study)
     if settings.report:
-        page = _report(folder, settings)
+        page = _report(study, settings)
         made |= {"report": page} if page else {}
     hints = {} if settings.report else {"next": f"python -m attnlab.report {shlex.quote(str(folder))}"}
     hints |= robots.at_end(jobs, as_typed(typed))
@@ -126,12 +128,14 @@ def as_typed(typed: Sequence[str]) -> list[str]:
     return [f"seed={compact(seeds('seed', a.partition('=')[2]))}" if a.startswith("seed=") else a for a in typed]
 
 
-def _report(folder: Path, settings: RunSettings) -> Path | None:
+def _report(study: Study, settings: RunSettings) -> Path | None:
     """The study's page. A report that cannot be made loses no result: it says why and how to try again."""
     from attnlab.report import build_report
+    from attnlab.report.steps import Steps
     try:
-        return build_report(folder, claims=settings.claims_file, quiet=True)
+        with Steps("drawing the report", "figures") as steps:
+            return build_report(study, claims=settings.claims_file, quiet=True, tell=steps)
     except Exception as cause:  # noqa: BLE001  whatever a measure or figure raises, the results are there
-        print(f"no report: {type(cause).__name__}: {cause}. python -m attnlab.report {folder} shows where",
+        print(f"no report: {type(cause).__name__}: {cause}. python -m attnlab.report {study.path} shows where",
               file=sys.stderr)
     return None

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from attnlab.console import guarded
+from attnlab.report.steps import Steps
 
 
 def main(argv: Sequence[str]) -> int:
@@ -20,7 +21,11 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--quiet", action="store_true", help="print nothing")
     given = parser.parse_args(list(argv))
     from attnlab.report import build_report
-    build_report(given.study, given.out, given.claims, given.baselines, given.quiet)
+    if given.quiet:
+        build_report(given.study, given.out, given.claims, given.baselines, quiet=True)
+        return 0
+    with Steps("drawing the report", "figures") as steps:
+        build_report(given.study, given.out, given.claims, given.baselines, tell=steps)
     return 0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 from attnlab.audit.table import load_table
@@ -18,18 +18,22 @@ from attnlab.figures.style import drawing
 from attnlab.report import drawn, forest, glance, multiverse, provenance, readings, table5, verdicts
 from attnlab.report.captions import load_captions
 from attnlab.report.curve_tables import combinations_csv
+from attnlab.report.hands import side_by_side
 from attnlab.report.multiverse import LEAST_READINGS
 from attnlab.report.page import Section, nothing_testable, page, table
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study, load
 from attnlab.tables.files import write_bytes
+from attnlab.tables.schema import TABLES
 
 MOST_SETTINGS = 6  # that the first sentence of a page names
 
 
-def build(study_path: str | Path, out: str | Path | None, claims_name: str | None, baselines: str | Path | None,
-          quiet: bool, only: Collection[str] | None = None) -> Path:
-    """See :func:`attnlab.report.build_report`; ``only`` names the figures to draw, all if left out."""
+def build(study_path: Study | str | Path, out: str | Path | None, claims_name: str | None, baselines: str | Path | None,
+          quiet: bool, tell: Callable[[int, int], None] | None = None, only: Collection[str] | None = None,
+          hands: int | None = None) -> Path:
+    """See :func:`attnlab.report.build_report`; ``only`` names the figures to draw, all if left out; ``hands``: how many
+    are drawn at a time, one a core if left out."""
     study = load(study_path)
     if not len(study.runs):
         raise ConfigError(str(study.path), "is no study: there are no runs in it", "Give a folder of outputs/")
@@ -42,23 +46,36 @@ def build(study_path: str | Path, out: str | Path | None, claims_name: str | Non
         (target / "figures").mkdir(parents=True, exist_ok=True)
     except OSError as cause:
         raise ConfigError("--out", f"{target} cannot be written ({cause.strerror or cause})") from None
+    for name in TABLES:
+        conditions.frame(name)  # read before hands are forked, once for all of them
     combinations = strata(claims, conditions)
     measured: dict[str, Cache] = {name: {} for name in combinations}
-    judged = {name: judge(claims, conditions, settings, measured[name]) for name, settings in combinations.items()}
-    telling = _telling(judged)
-    told = judged[telling] if telling is not None else []
-    first = told or next(iter(judged.values()), [])
-    many = sum(not nothing_testable(of) for of in judged.values()) >= LEAST_READINGS
+
+    def verdicts_of_all() -> dict[str, list[Verdict]]:
+        return {name: judge(claims, conditions, settings, measured[name]) for name, settings in combinations.items()}
+    judged = verdicts_of_all() if len(combinations) >= LEAST_READINGS else None
+    many = judged is not None and sum(not nothing_testable(of) for of in judged.values()) >= LEAST_READINGS
     if many and only is None:
         only = ()  # figures of conditions: of a hundred readings nobody could read them
-    with drawing(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
-        wanted = [name for name in gallery() if conditions.strata and (only is None or name in only)]
-        shown = drawn.draw(wanted, FigureContext(others), conditions, captions, told, target)
-        tables = _tables(claims, conditions, combinations, target)
-        sections = _sections(study, judged, combinations, telling, tables, target, many)
-        over = readings.of(multiverse.analyse(claims, conditions, combinations, judged, measured), study.path, target) \
-            if many else readings.Page(forest.first_screen(study))
+    drawer = drawn.Gallery(FigureContext(others), conditions, captions, target)
+    wanted = [name for name in gallery() if conditions.strata and (only is None or name in only)]
+
+    def done(count: int) -> None:
+        if tell is not None:
+            tell(count, len(wanted))
+    with drawing(), drawer.begin(wanted, hands or side_by_side()) as figures:
+        done(0)
+        judged = judged or verdicts_of_all()  # while others draw
+        telling = _telling(judged)
+        told = judged[telling] if telling is not None else []
+        first = told or next(iter(judged.values()), [])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # as figures are drawn
+            tables = _tables(claims, conditions, combinations, target)
+            sections = _sections(study, judged, combinations, telling, tables, target, many)
+            over = readings.of(multiverse.analyse(claims, conditions, combinations, judged, measured), study.path,
+                               target) if many else readings.Page(forest.first_screen(study))
+        shown = [drawer.shown(name, of, told) for name, of in zip(wanted, figures.answers(done), strict=True) if of]
     sections.append(provenance.commands(study))
     notes = [*provenance.notes(study, conditions, claims), *over.notes]
     if not conditions.strata:

@@ -1,8 +1,10 @@
-"""Draws the figures that there are. One that fails is named in its place, and the others are drawn."""
+"""Draws the figures that there are, by all cores. One that fails is named in its place, and the others are drawn."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,32 +13,56 @@ from attnlab.errors import describe
 from attnlab.figures.base import FigureContext, make
 from attnlab.figures.style import png_bytes, svg_bytes
 from attnlab.registry import parts
+from attnlab.report.hands import Hands
 from attnlab.report.page import Shown
 from attnlab.results.conditions import Conditions
 from attnlab.tables.files import write_bytes
 
 
-def draw(names: Sequence[str], context: FigureContext, conditions: Conditions, captions: Mapping[str, str],
-         judged: Sequence[Verdict], target: Path) -> list[Shown]:
-    """The figures of these names that apply to this study, written to ``target``/figures; ``judged``: verdicts that
-    they may show."""
-    found = []
-    for name in names:
-        paper = captions.get(name, "")
+@dataclass
+class Gallery:
+    """What the figures of a study are drawn from, and where their files go: ``target``/figures. ``captions``: figure
+    -> what the paper shows there."""
+    context: FigureContext
+    conditions: Conditions
+    captions: Mapping[str, str]
+    target: Path
+
+    def begin(self, names: Sequence[str], hands: int) -> Hands[str, Shown | None]:
+        """Draw the figures of these names that apply to this study, so many at a time."""
+        return Hands(self.sketch, self.failed, names, hands)
+
+    def sketch(self, name: str) -> Shown | None:
+        """A figure in its files, and what it says; None where there is nothing to draw."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a glyph that the font lacks, a mean of nothing
+            try:
+                figure = make(name, self.context)
+                if not figure.applies(self.conditions):
+                    return None
+                said = figure.say(self.conditions)
+                save(figure.draw(self.conditions), figure.key, self.target)
+                return Shown(figure.key, figure.heading, self.captions.get(name, ""), said, how=figure.how)
+            except Exception as cause:  # noqa: BLE001  a figure of anybody's: it is named, and the page goes on
+                return self.failed(name, describe(cause))
+
+    def failed(self, name: str, why: str) -> Shown:
+        """What stands in its place."""
+        spec = parts["figure", name]
+        title = str(getattr(spec.cls, "title", "") or name)
+        return Shown(name, title, self.captions.get(name, ""), failed=f"{_short(spec.origin)}: {why}")
+
+    def shown(self, name: str, drawn: Shown, judged: Sequence[Verdict]) -> Shown:
+        """With its picture, and those of the verdicts that it may show."""
+        if drawn.failed:
+            return drawn
         try:
-            figure = make(name, context)
-            if not figure.applies(conditions):
-                continue
-            claims = [v.id for v in judged if figure.shows(v.claim.where, [p.part.measure_name for p in v.parts])]
-            said = figure.say(conditions)
-            png = save(figure.draw(conditions), figure.key, target)
-            shown = Shown(figure.key, figure.heading, paper, said, png, claims, figure.how)
-        except Exception as cause:  # noqa: BLE001  a figure of anybody's: it is named, and the page goes on
-            spec = parts["figure", name]
-            title = str(getattr(spec.cls, "title", "") or name)
-            shown = Shown(name, title, paper, failed=f"{_short(spec.origin)}: {describe(cause)}")
-        found.append(shown)
-    return found
+            figure = make(name, self.context)
+            drawn.claims = [v.id for v in judged if figure.shows(v.claim.where, [p.part.measure_name for p in v.parts])]
+            drawn.png = (self.target / "figures" / f"{drawn.key}.png").read_bytes()
+        except Exception as cause:  # noqa: BLE001  as above
+            return self.failed(name, describe(cause))
+        return drawn
 
 
 def _short(file: str) -> str:

@@ -24,15 +24,15 @@ RUNS = ["study", "run", "condition", "status", "why", "seed", "curiosity", "key"
 
 
 @overload
-def load(study: str | Path, /) -> Study: ...
+def load(study: Study | str | Path, /) -> Study: ...
 @overload
-def load(study: str | Path, /, *more: str | Path) -> Study | Studies: ...
-def load(*studies: str | Path) -> Study | Studies:
+def load(study: Study | str | Path, /, *more: Study | str | Path) -> Study | Studies: ...
+def load(*studies: Study | str | Path) -> Study | Studies:
     """The study in this folder (or of this name in outputs/), or several as one: their frames one below the other.
     Raises ConfigError if there is none."""
     if not studies:
         raise ConfigError("load", "names no study", 'load("outputs/cr_vs_ncr")')
-    found = [Study(folder_of(study)) for study in studies]
+    found = [study if isinstance(study, Study) else Study(folder_of(study)) for study in studies]
     return found[0] if len(found) == 1 else Studies(found)
 
 

@@ -1,14 +1,28 @@
-"""Is the process that began a run still at it? And does this one still have somebody to work for?"""
+"""Processes: how many fit, is the one that began a run still at it, does this one still have somebody to work for?"""
 
 from __future__ import annotations
 
 import os
 import platform
+import signal
 import threading
 import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+
+
+def cores() -> int:
+    """Cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def signal_name(number: int) -> str:
+    """What a signal is called: ``SIGSEGV (signal 11)``."""
+    try:
+        return f"{signal.Signals(number).name} (signal {number})"
+    except ValueError:
+        return f"signal {number}"
 
 
 def birth(pid: int) -> int | None:

@@ -15,6 +15,6 @@ def study(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def built(study, tmp_path_factory) -> Path:
-    """The report of that study: the folder with index.html."""
-    from attnlab.report import build_report
-    return build_report(study, tmp_path_factory.mktemp("report"), quiet=True).parent
+    """The report of that study, drawn by one process: the folder with index.html."""
+    from attnlab.report.build import build
+    return build(study, tmp_path_factory.mktemp("report"), None, None, True, hands=1).parent
