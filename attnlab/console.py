@@ -9,7 +9,9 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
+from types import FrameType
 from typing import Any, TextIO
 
 from attnlab.errors import ConfigError
@@ -88,6 +90,32 @@ def undisturbed() -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+@contextmanager
+def heard() -> Iterator[None]:
+    """Ctrl-C or SIGTERM is heard at the latest when this block ends: C code that calls Python (LLVM's) may lose it."""
+    came: list[Callable[[], Any]] = []
+    handlers = {number: handler for number in (signal.SIGINT, signal.SIGTERM)
+                if callable(handler := signal.getsignal(number))}
+    if threading.current_thread() is not threading.main_thread():
+        handlers = {}
+
+    def hear(number: int, frame: FrameType | None) -> None:
+        came.append(partial(handlers[signal.Signals(number)], number, None))
+        handlers[signal.Signals(number)](number, frame)
+    hook = sys.unraisablehook
+    sys.unraisablehook = lambda lost: None if came else hook(lost)
+    for number in handlers:
+        signal.signal(number, hear)
+    try:
+        yield
+    finally:
+        sys.unraisablehook = hook
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+    for again in came:
+        again()
 
 
 def guarded(main: Callable[[Sequence[str]], int], argv: Sequence[str] | None = None) -> int:

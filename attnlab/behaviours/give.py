@@ -30,6 +30,7 @@ class Give(Behaviour):
     ``giving_period`` but for the width of a percept. It moves nothing; the reward has the form of eq (8). Draws
     nothing at random.
     """
+    interpreted = "it watches the hand of simulator=scripted"
     simulators = ("scripted",)
 
     @dataclass

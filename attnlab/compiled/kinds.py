@@ -9,11 +9,14 @@ from __future__ import annotations
 from hashlib import sha256
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.extending import models, register_model
 
 PAIR = types.Optional(types.UniTuple(types.float64, 2))
+ARRAYS = {(np.dtype(str(of)), n): types.Array(of, n, "C") for of in (types.float64, types.int64) for n in (1, 2, 3)}
+FLOATS, WHOLES = (ARRAYS[np.dtype(of), 1] for of in (np.float64, np.int64))
 INTEGER, DOUBLE = ir.IntType(64), ir.DoubleType()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import typing
 from collections.abc import Callable, Collection, Sequence
 from random import Random
 from types import FunctionType
@@ -11,16 +12,13 @@ import numpy as np
 from numba import types
 
 from attnlab.compiled.fields import are, hints, is_frozen, names, own
-from attnlab.compiled.kinds import PAIR, OneOf, Reference, Row
+from attnlab.compiled.kinds import ARRAYS, FLOATS, PAIR, WHOLES, OneOf, Reference, Row
 from attnlab.compiled.methods import class_of, one_of, source_of
-from attnlab.compiled.words import WORD, code
+from attnlab.compiled.words import PLAIN, WORD, code
 from attnlab.curiosity.base import Curiosity
 from attnlab.exploration.base import Exploration
 from attnlab.worlds.base import Layout as WorldLayout
 
-ARRAYS = {(np.dtype(str(of)), n): types.Array(of, n, "C") for of in (types.float64, types.int64) for n in (1, 2, 3)}
-FLOATS, WHOLES = (ARRAYS[np.dtype(of), 1] for of in (np.float64, np.int64))
-EMPTY: dict[Any, types.Type] = {list[int]: WHOLES, list[float]: FLOATS}
 PAIRS = (tuple[float, float] | None,)
 HELD = (Exploration | None,)  # a part that keeps the exploration it was given; before that it holds the first
 Fields = dict[str, tuple[types.Type, Any]]  # name -> (kind, value)
@@ -48,7 +46,7 @@ class Memory:
 
     def place(self, thing: Any) -> tuple[Reference, int]:
         """The kind of an object and its address."""
-        kind = self._kind(thing, self._describe(thing))
+        kind = self._kind(type(thing), self._describe(thing))
         return kind, self._address(thing, kind)
 
     def push(self, thing: Any) -> None:
@@ -137,9 +135,8 @@ class Memory:
         return fields
 
     def _kind_of(self, thing: Any, name: str, value: Any) -> types.Type:
-        plain = {bool: types.boolean, int: types.int64, float: types.float64, str: WORD}.get(type(value))
-        if plain is not None:
-            return plain
+        if type(value) in PLAIN:
+            return PLAIN[type(value)]
         if isinstance(value, np.ndarray):
             if (value.dtype, value.ndim) in ARRAYS and value.flags.c_contiguous:
                 return ARRAYS[value.dtype, value.ndim]
@@ -149,21 +146,25 @@ class Memory:
             return PAIR
         if hints(type(thing)).get(name) in HELD:
             return self.exploration
-        if type(value) is list and not value and hints(type(thing)).get(name) in EMPTY:
-            return EMPTY[hints(type(thing))[name]]
         if type(value) in (list, tuple):
-            return self._kind_of_list(value)
+            said = typing.get_args(hints(type(thing)).get(name))
+            return self._kind_of_list(value) if value else self._kind_of_empty(*said[:1])
         if isinstance(value, WorldLayout):
             raise _Unfit("the plan of the world, which nobody asks while a robot moves")
         if type(value).__module__.split(".")[0] == "attnlab" or isinstance(value, Random):
             if isinstance(value, (FunctionType, type)):
                 raise _Unfit("a function or class")
-            return self._kind(value, self._describe(value))
+            return self._kind(type(value), self._describe(value))
         raise _Unfit(f"of type {type(value).__name__}")
 
-    def _kind_of_list(self, value: Any) -> types.Type:
-        if not len(value):
+    def _kind_of_empty(self, of: Any = None) -> types.Type:
+        """Of a list that is said to hold such things; objects by what is said of their fields."""
+        if of not in PLAIN and not is_frozen(of):
             raise _Unfit("an empty list, of nobody knows what")
+        fields: Fields = {name: (PLAIN[kind], None) for name, kind in hints(of).items() if kind in PLAIN}
+        return FLOATS if of is float else WHOLES if of in PLAIN else Row(self._kind(of, fields))
+
+    def _kind_of_list(self, value: Any) -> types.Type:
         if are(value, int) or are(value, bool) or are(value, str):
             return WHOLES
         if all(type(item) in (int, float) for item in value):
@@ -171,8 +172,7 @@ class Memory:
         if are(value, list) and all(value) and len({len(row) for row in value}) == 1 and not are(value[0], str):
             inner = [self._kind_of_list(row) for row in value]
             dims = {kind.ndim if isinstance(kind, types.Array) else 0 for kind in inner}
-            broken = any(isinstance(kind, types.Array) and kind.dtype is types.float64 for kind in inner)
-            of = np.dtype(np.float64 if broken else np.int64)
+            of = np.dtype("f8" if any(getattr(kind, "dtype", None) is types.float64 for kind in inner) else "i8")
             if len(dims) == 1 and (of, 1 + max(dims)) in ARRAYS and 0 not in dims:
                 return ARRAYS[of, 1 + max(dims)]
         if all(type(item).__module__.split(".")[0] == "attnlab" and not isinstance(item, tuple) for item in value):
@@ -196,11 +196,11 @@ class Memory:
                     for fields in described:
                         fields.pop(name, None)
                     self.left_out[f"{source.__name__}.{name}"] = "of unlike kinds"
-        return tuple(dict.fromkeys(self._kind(thing, self._describe(thing)) for thing in things))
+        return tuple(dict.fromkeys(self._kind(type(thing), self._describe(thing)) for thing in things))
 
-    def _kind(self, thing: Any, fields: Fields) -> Reference:
+    def _kind(self, of: type, fields: Fields) -> Reference:
         layout = {name: kind for name, (kind, _) in fields.items()}
-        cls = class_of(source_of(type(thing)))
+        cls = class_of(source_of(of))
         key = f"{cls.__name__} {cls.source.__module__} {layout}"
         if key not in self._kinds:
             self._kinds[key] = cls(layout)

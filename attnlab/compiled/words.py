@@ -36,6 +36,7 @@ class Word(types.Type):
 
 
 WORD = Word()
+PLAIN: dict[Any, types.Type] = {bool: types.boolean, int: types.int64, float: types.float64, str: WORD}
 
 
 @register_model(Word)

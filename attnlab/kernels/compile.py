@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from pickle import UnpicklingError
 from typing import Any, TypeVar, cast
 
 from numba import njit
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+DAMAGE = (UnpicklingError, EOFError)  # of a file in the cache
 _told = False
 
 
@@ -23,8 +25,17 @@ def is_kept(signature: str, function: Callable[..., Any], **options: Any) -> boo
     try:
         lazy = njit(cache=True, **options)(function)
         return lazy._cache.load_overload(signature, lazy.targetctx) is not None  # kept under what it was asked by
+    except (RuntimeError, OSError, *DAMAGE):
+        return False
+
+
+def keeps() -> bool:
+    """Is there a folder that compiled code can be kept in?"""
+    try:
+        njit(cache=True)(keeps)
     except (RuntimeError, OSError):
         return False
+    return True
 
 
 def compiled(signature: str, **options: Any) -> Callable[[Function], Function]:
@@ -40,7 +51,11 @@ def compiled(signature: str, **options: Any) -> Callable[[Function], Function]:
     def wrap(function: Function) -> Function:
         global _told
         try:
-            return cast("Function", njit(signature, cache=True, **options)(function))
+            try:
+                return cast("Function", njit(signature, cache=True, **options)(function))
+            except DAMAGE:  # what was kept of it is no code: away with it
+                njit(cache=True, **options)(function)._cache.flush()
+                return cast("Function", njit(signature, cache=True, **options)(function))
         except (RuntimeError, OSError) as cause:
             if isinstance(cause, RuntimeError) and "cache" not in str(cause):
                 raise

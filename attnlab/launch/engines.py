@@ -6,6 +6,7 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 
+from attnlab.console import heard
 from attnlab.launch.jobs import Job
 from attnlab.robot.engines import Choice, choose
 
@@ -13,14 +14,24 @@ PARTS = ("behaviours", "curiosity", "exploration", "fusion", "learner", "needs",
 
 
 def prepare(jobs: Sequence[Job]) -> None:
-    """Give every job its engine. Raises ConfigError if ``engine=compiled`` cannot be."""
+    """Give every job its engine; says once that it compiles, and why what was to be compiled runs interpreted. Raises
+    ConfigError if ``engine=compiled`` cannot be."""
     cycles: Counter[str] = Counter()
     for job in jobs:
         cycles[_parts(job)] += job.settings.max_cycles * job.episodes
     chosen: dict[str, Choice] = {}
+    tried, said = list[int](), set[str]()
+
+    def compiling() -> None:
+        tried.append(1)
+        _say("compiling, about 10 s for each composition of parts, once", said)
     for job in jobs:
         if job.of.key not in chosen:
-            chosen[job.of.key] = choose(job.plan, cycles[_parts(job)], _announce)
+            before = len(tried)
+            with heard():
+                found = chosen[job.of.key] = choose(job.plan, cycles[_parts(job)], compiling)
+            if len(tried) > before and found.name == "python":
+                _say(f"runs interpreted: {found.why}", said)
         job.engine = chosen[job.of.key]
 
 
@@ -30,5 +41,8 @@ def _parts(job: Job) -> str:
                  for group in PARTS for node in [getattr(job.settings, group)]])
 
 
-def _announce() -> None:
-    print("compiling these parts, about 10 s, once", file=sys.stderr, flush=True)
+def _say(what: str, said: set[str]) -> None:
+    """A line for whoever waits, once."""
+    if what not in said:
+        said.add(what)
+        print(what, file=sys.stderr, flush=True)

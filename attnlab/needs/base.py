@@ -92,6 +92,12 @@ class Body:
 
     ``values`` are the needs in the order of ``needs``; ``energy`` is E(t), UoE; ``meals`` counts what was consumed.
     """
+    needs: list[Need]
+    names: list[str]
+    values: list[float]
+    meals: list[int]
+    _limits: list[float]
+    _eaten: list[float]
 
     def __init__(self, needs: list[Need], energy_start: float, e_u: float, e_nb: float, reading: Reading):
         self.needs, self.reading = needs, reading

@@ -41,10 +41,13 @@ def choose(plan: RunPlan, cycles: int | None = None, announce: Callable[[], None
     if not why:
         try:
             from attnlab.compiled.engine import Uncompilable
-        except ImportError as cause:
+            from attnlab.kernels.compile import keeps
+        except (ImportError, AttributeError) as cause:
             why = f"numba is missing or too old ({describe(cause)})"
     if not why:
         try:
+            if asked == "auto" and not keeps():
+                return Choice("python", "numba's cache folder cannot be written: each run would compile for itself")
             kept = build(plan, only_kept=True)
             if not kept and asked == "auto" and total < PAYS_CYCLES:
                 return Choice("python", f"compiling pays from {PAYS_CYCLES:,} cycles on; there are {total:,} at most")

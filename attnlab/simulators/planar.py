@@ -28,6 +28,8 @@ class Planar(Simulator):
     through it.
     """
 
+    requires = ("numba",)
+
     @dataclass
     class Params(SensorParams):
         pass

@@ -7,6 +7,7 @@ Every built-in part passes the same. ``make`` and ``config`` build a part or a w
 """
 
 from attnlab.testing.build import config, make, run
+from attnlab.testing.compiled import compiles
 from attnlab.testing.suite import checks, conformance
 
-__all__ = ["checks", "config", "conformance", "make", "run"]
+__all__ = ["checks", "compiles", "config", "conformance", "make", "run"]

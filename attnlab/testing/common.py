@@ -92,7 +92,7 @@ def plain(value: Any) -> bool:
 def whole_run(group: str, name: str, settings: dict[str, Any]) -> dict[str, dict[str, list[Any]]]:
     """The tables of a short run that uses the part."""
     from attnlab.robot.episodes import play_run
-    return play_run(_plan(group, name, settings))[0]
+    return play_run(plan_of(group, name, settings))[0]
 
 
 class _Interrupted(BaseException):
@@ -108,7 +108,7 @@ def interrupted(group: str, name: str, settings: dict[str, Any]) -> tuple[dict[s
     def kill(*_: int) -> None:
         raise _Interrupted
     with tempfile.TemporaryDirectory() as home:
-        plan = _plan(group, name, settings, checkpoint_minutes=0)
+        plan = plan_of(group, name, settings, checkpoint_minutes=0)
         with contextlib.suppress(_Interrupted):
             play_run(plan.with_seed(plan.settings.seed), folder=Path(home), progress=kill,
                      keeping=Keeping(plan, Path(home), "key"))
@@ -116,7 +116,8 @@ def interrupted(group: str, name: str, settings: dict[str, Any]) -> tuple[dict[s
         return play_run(plan, folder=Path(home), keeping=keeping)[0], keeping.notes
 
 
-def _plan(group: str, name: str, settings: dict[str, Any], **top: Any) -> RunPlan:
+def plan_of(group: str, name: str, settings: dict[str, Any], **top: Any) -> RunPlan:
+    """A short run that uses the part."""
     from attnlab.robot.plan import RunPlan
     if group == "behaviours":
         works_in: tuple[str, ...] = getattr(part_of(group, name).cls, "simulators", ())
