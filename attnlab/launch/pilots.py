@@ -35,7 +35,8 @@ class UndecidedError(Exception):
 
 def sound(design: Design, expansion: Expansion, typed: Sequence[str]) -> list[str]:
     """Names of the readings that make the study: as decided before, or else by pilots that are run now, as far as they
-    are not there. Raises ConfigError, :class:`UndecidedError`."""
+    are not there. A study that ran out of candidates may be given more, and keeps what it has. Raises ConfigError,
+    :class:`UndecidedError`."""
     pilot = design.pilot
     assert pilot is not None
     first = expansion.jobs(design.variants([next(iter(design.levels))]))  # whatever is wrong comes before any pilot
@@ -44,23 +45,26 @@ def sound(design: Design, expansion: Expansion, typed: Sequence[str]) -> list[st
     _check(pilot, expansion, sorted({job.settings.seed for job in first}))
     also = {"train_episodes": pilot.episodes, "validation_episodes": 0, "record": "none",
             "study": f"{settings.study}_pilots"}
-    jobs = expansion.jobs(design.variants(conditions=[pilot.condition]), also, pilot.numbers)
-    mark = _mark(jobs, design)
-    decided = None if settings.fresh else read_decided(folder)
-    if decided is not None:
-        if decided.mark != mark:
+
+    def pilots(names: Sequence[str]) -> list[Job]:
+        return expansion.jobs(design.variants(names, [pilot.condition]), also, pilot.numbers)
+    before, names = None if settings.fresh else read_decided(folder), list(design.levels)
+    tried = before.tried if before else []
+    if before is not None:
+        known = names[:len(tried)]
+        if [of.reading for of in tried] != known or before.mark != _mark(pilots(known), design):
             raise ConfigError("variants", f"{folder / FILE} was decided by other pilots, or another rule",
                               "study=NAME begins another study; fresh=true decides anew")
-        print(f"{folder}: {len(decided.taken)} readings, as decided by pilots ({FILE})", flush=True)
-        return decided.taken
-    if len(expansion.seeds or ()) < 2:
-        raise ConfigError("seed", "is one, and one seed cannot tell an effect from chance", "seed=0-9")
-    if not settings.fresh and (folder / STUDY_FILE).exists():
-        raise ConfigError("study", f"{folder} was begun without pilots: what is sound was not decided before",
-                          "study=NAME begins another study")
+        if len(before.taken) == design.size or len(tried) == len(names):
+            print(f"{folder}: {len(before.taken)} readings, as decided by pilots ({FILE})", flush=True)
+            return before.taken
+    else:
+        _check_new(expansion, folder, settings.fresh)
+    jobs = pilots(names)
     check_once(jobs)
     check_place(jobs)
-    decided = Decided(mark, rule_of(pilot), len(design.levels), _tried(design, pilot, jobs, typed))
+    tried = _try(design, tried, jobs, typed)
+    decided = Decided(_mark(jobs[:len(tried) * len(pilot.numbers)], design), rule_of(pilot), len(names), tried)
     take(decided, design.size)
     if len(decided.taken) < LEAST:
         raise ConfigError("variants.pilot", f"{len(decided.taken) or 'none'} of {len(decided.tried)} readings is sound "
@@ -82,8 +86,17 @@ def _check(pilot: Pilot, expansion: Expansion, asked: Sequence[int]) -> None:
                               "Write it into variants.conditions")
 
 
+def _check_new(expansion: Expansion, folder: Path, fresh: bool) -> None:
+    """Raise ConfigError if a multiverse cannot begin like this."""
+    if len(expansion.seeds or ()) < 2:
+        raise ConfigError("seed", "is one, and one seed cannot tell an effect from chance", "seed=0-9")
+    if not fresh and (folder / STUDY_FILE).exists():
+        raise ConfigError("study", f"{folder} was begun without pilots: what is sound was not decided before",
+                          "study=NAME begins another study")
+
+
 def _mark(jobs: Sequence[Job], design: Design) -> str:
-    """What the decision hangs on: every pilot, and the rule."""
+    """What a decision hangs on: its pilots, and the rule."""
     pilot = design.pilot
     assert pilot is not None
     text = json.dumps([[job.key for job in jobs], pilot.survival, design.size])
@@ -96,16 +109,18 @@ def rule_of(pilot: Pilot) -> str:
             f"seeds {pilot.seeds}, and somebody eats and drinks")
 
 
-def _tried(design: Design, pilot: Pilot, jobs: Sequence[Job], typed: Sequence[str]) -> list[Tried]:
-    """Readings in order, as many as it takes until there are enough; their pilots are run as far as they must."""
-    names, each, found = list(design.levels), len(pilot.numbers), list[Tried]()
+def _try(design: Design, tried: Sequence[Tried], jobs: Sequence[Job], typed: Sequence[str]) -> list[Tried]:
+    """Those that were ``tried``, and the readings after them, in order, as many as it takes until there are enough
+    sound ones; their pilots, of all ``jobs``, are run as far as they must."""
+    pilot = design.pilot
+    assert pilot is not None
+    names, each, found = list(design.levels), len(pilot.numbers), list(tried)
     home = jobs[0].folder.parent
     print(f"{home}: pilots. Of {len(names)} readings the first {design.size} sound ones make the study: "
           f"{rule_of(pilot)}", flush=True)
-    for first in range(0, len(names), design.size):
+    for first in range(len(found), len(names), design.size):
         some = names[first:first + design.size]
-        count = len([tried for tried in found if not tried.reason])
-        print(f"{home}: {some[0]} to {some[-1]}" + f"; {count} of {first} before them are sound" * (first > 0),
+        print(f"{home}: {some[0]} to {some[-1]}" + f"; {_sound(found)} of {first} before them are sound" * (first > 0),
               flush=True)
         mine = jobs[first * each:(first + len(some)) * each]
         failed = complete(mine, typed)
@@ -114,9 +129,13 @@ def _tried(design: Design, pilot: Pilot, jobs: Sequence[Job], typed: Sequence[st
         for i, name in enumerate(some):
             folders = [job.folder for job in mine[i * each:(i + 1) * each]]
             found.append(judged(name, design.levels[name], folders, pilot))
-            if len([tried for tried in found if not tried.reason]) == design.size:
+            if _sound(found) == design.size:
                 return found
     return found
+
+
+def _sound(tried: Sequence[Tried]) -> int:
+    return len([of for of in tried if not of.reason])
 
 
 def judged(name: str, levels: dict[str, str], folders: Sequence[Path], pilot: Pilot) -> Tried:

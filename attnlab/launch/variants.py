@@ -14,6 +14,7 @@ from attnlab.stats.soundness import EARLY_EPISODES, LEAST_EARLY
 from attnlab.tables.ranges import seeds
 
 DESIGNS = ("multiverse",)
+BLOCK = 4  # candidates come in designs of so many times the readings that are asked for
 Variants = dict[str | None, dict[str, Any]]  # name -> setting -> value
 
 
@@ -26,7 +27,7 @@ class Pilot:
     episodes: int = setting(EARLY_EPISODES, "training episodes of a pilot", low=1)
     survival: float = setting(LEAST_EARLY, "a sound reading's mean survival in them is above this", unit="%", low=0,
                               high=100)
-    candidates: int = setting(512, "readings of the design, which are tried in order until there are enough", low=2)
+    candidates: int = setting(1536, "readings of the design, which are tried in order until there are enough", low=2)
 
     @property
     def numbers(self) -> list[int]:
@@ -110,8 +111,18 @@ def read_design(node: Any) -> Design | None:
     pilot = None if node.get("pilot") is None else build(Pilot, node["pilot"], "variants.pilot")
     if pilot is not None:
         pilot.check(size, conditions)
-    rows = design_levels(points, size if pilot is None else pilot.candidates, seed)
-    width = len(str(len(rows) - 1))
+    if pilot is None:
+        rows, width = design_levels(points, size, seed), len(str(size - 1))
+    else:  # in blocks, each balanced, so that the first stay what they are when there are more
+        count, width = BLOCK * size, 3
+        each: dict[tuple[str, ...], dict[str, str]] = {}
+        for block in range(-(-pilot.candidates // count)):
+            for row in design_levels(points, count, seed + block):
+                each.setdefault(tuple(row.values()), row)
+        rows = list(each.values())[:pilot.candidates]
+        if len(rows) < size:
+            raise ConfigError("variants.size", f"is {size}, and the factors make {len(rows)} different readings",
+                              "Ask for fewer, or name more factors")
     levels = {f"r{i:0{width}d}": row for i, row in enumerate(rows)}
     return Design(size, levels, {name: overrides_of(points, row) for name, row in levels.items()}, conditions, pilot)
 

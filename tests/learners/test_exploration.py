@@ -19,6 +19,16 @@ def test_greedy_takes_the_first_of_the_best():
     assert greedy.probabilities(VALUES, VISITS) == [0.0, 1.0, 0.0, 0.0]
 
 
+@pytest.mark.parametrize(("ties", "draws", "action", "chances"), [
+    ("last", (), 2, [0.0, 0.0, 1.0, 0.0]), ("random", (0.49,), 1, [0.0, 0.5, 0.5, 0.0]),
+    ("random", (0.51,), 2, [0.0, 0.5, 0.5, 0.0])])
+def test_greedy_between_equals(ties, draws, action, chances):
+    greedy = make("exploration", "greedy", ties=ties)
+    assert greedy.choose([1.0, 3.0, 3.0, 2.0], VISITS, Draws(*draws)) == action
+    assert greedy.probabilities([1.0, 3.0, 3.0, 2.0], VISITS) == chances
+    assert greedy.choose([1.0, 3.0, 4.0, 2.0], VISITS, Draws()) == 2  # draws nothing where one is best
+
+
 @pytest.mark.parametrize(("draws", "action"), [
     ((0.25,), 1), ((0.3,), 1), ((0.24, 0.0), 0), ((0.0, 0.25), 1), ((0.24, 0.74), 2), ((0.1, 0.99), 3)])
 def test_epsilon_greedy(draws, action):

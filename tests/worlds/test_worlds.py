@@ -41,6 +41,30 @@ def test_shipped_worlds_are_solvable_and_start_free(name):
     assert clearance(x, y, layout.solids) >= layout.start_clearance_m
 
 
+@pytest.mark.parametrize("layout", ["paper", "apart", "random"])
+@pytest.mark.parametrize("of_each", [1, 2])
+def test_places(layout, of_each):
+    found = build("places", seed=3, layout=layout, of_each=of_each)
+    kinds = [solid.kind for solid in found.solids]
+    assert found.width_m * found.depth_m == 16.0 and kinds.count("obstacle") == 2
+    assert kinds.count("food") == kinds.count("water") == of_each
+    assert solvable(found)
+    if layout == "random":
+        assert found == build("random", seed=3, food=of_each, water=of_each)
+        assert found != build("places", seed=4, layout=layout, of_each=of_each)
+    else:
+        assert found == build("places", seed=4, layout=layout, of_each=of_each)
+        boxes = found.solids[4:]
+        turned = {(b.kind, 4.0 - b.x_m, 4.0 - b.y_m) for b in boxes if b.kind == "obstacle"}
+        assert turned == {(b.kind, b.x_m, b.y_m) for b in boxes if b.kind == "obstacle"}
+        foods, waters = ([(b.x_m, b.y_m) for b in boxes if b.kind == kind] for kind in ("food", "water"))
+        assert [(4.0 - x, 4.0 - y) for x, y in foods] == [pytest.approx(at) for at in waters]  # point-symmetric
+
+
+def test_the_first_place_is_the_papers_world():
+    assert build("places") == build("paper")
+
+
 @given(st.integers(0, 10_000))
 @settings(max_examples=25, deadline=None)
 def test_random_layouts_are_always_solvable(seed):
