@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -50,3 +52,19 @@ def test_it_is_the_share_in_the_last_observations(percepts, window, name):
             seen = percepts[max(0, end - window):end].count(percept)
             assert found[i] == pytest.approx(1.0 - seen / window)
             assert 0.0 <= found[i] <= 1.0
+
+
+@pytest.mark.parametrize(("name", "how", "expected"), [
+    ("litman", {}, [1.0, 0.75, 0.5, 0.25]),
+    ("litman", {"novelty_over": "state"}, [1.0, 1.0, 0.75, 0.75]),  # the percept with w > 0 and with w = 0 are two
+    ("none", {"novelty_over": "state", "non_curious": "same_states"}, [1.0, 1.0, 0.75, 0.75]),
+    ("none", {"novelty_over": "state"}, [1.0, 0.75, 0.5, 0.25])])  # who knows no curiosity has w = 0
+def test_states_counted_by_hand(name, how, expected):
+    """One percept four times, with energy above E_well (3067) and below in turn, in a window of four."""
+    model = make("curiosity", name, how={"novelty_window": 4, **how})
+    memory, found = model.memory(), []
+    for energy in (4000.0, 3000.0, 4000.0, 3000.0):
+        model.attach(SimpleNamespace(body=SimpleNamespace(energy=energy)))
+        found.append(model.liking(memory, 5))
+        model.observe(memory, 5)
+    assert found == expected

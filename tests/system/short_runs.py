@@ -21,7 +21,8 @@ LEARNERS = ("sarsa", "expected_sarsa", "double_q", "q_lambda", "monitor", "fixed
 EXPLORATIONS = ("epsilon_greedy", "greedy", "ucb1", "annealed")
 READINGS = {"safety_distance": {"crash": "safety_distance"}, "same_states": {"non_curious": "same_states"},
             "clipped": {"energy_clipped": True, "needs_floored": True, "energy_death": True},
-            "smdp": {"q_update": "smdp"}, "respawn": {"food_supply": "respawn", "penalised": "all"}}
+            "smdp": {"q_update": "smdp"}, "respawn": {"food_supply": "respawn", "penalised": "all"},
+            "states": {"novelty_over": "state"}, "last_of_equals": {"tie_break": "last"}, "any_of_equals": {"tie_break": "random"}}
 
 RUNS = {
     "paper": config(max_cycles=1150),
@@ -32,6 +33,7 @@ RUNS = {
        for name, how in READINGS.items()},
     "learner=capped": config(learner={"name": "capped", "looks_per_s": 2.4}, max_cycles=500),
     "validation.clamp_level=HH": config(validation={"clamp_level": "HH"}, max_cycles=500),
+    "world=places": config(world={"name": "places", "layout": "apart", "of_each": 2}, max_cycles=500),
     "fusion=mean": config(fusion="mean", max_cycles=500),
     "behaviours=avoid,wander,rest": config(behaviours=("avoid", "wander", "rest"), max_cycles=500),
     "simulator=scripted": config(simulator="scripted", behaviours=("give",), needs="energy_only"),
