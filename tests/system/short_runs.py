@@ -22,7 +22,8 @@ EXPLORATIONS = ("epsilon_greedy", "greedy", "ucb1", "annealed")
 READINGS = {"safety_distance": {"crash": "safety_distance"}, "same_states": {"non_curious": "same_states"},
             "clipped": {"energy_clipped": True, "needs_floored": True, "energy_death": True},
             "smdp": {"q_update": "smdp"}, "respawn": {"food_supply": "respawn", "penalised": "all"},
-            "states": {"novelty_over": "state"}, "last_of_equals": {"tie_break": "last"}, "any_of_equals": {"tie_break": "random"}}
+            "states": {"novelty_over": "state"}, "last_of_equals": {"tie_break": "last"},
+            "any_of_equals": {"tie_break": "random"}}
 
 RUNS = {
     "paper": config(max_cycles=1150),
