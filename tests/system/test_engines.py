@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 from attnlab.attention import Log
 from attnlab.errors import ConfigError
 from attnlab.results import load
-from attnlab.robot.engines import PAYS_CYCLES, choose
+from attnlab.robot.engines import LOOKS_CYCLES, PAYS_CYCLES, choose
 from attnlab.robot.episode import run_episode
 from attnlab.robot.episodes import play_run
 from attnlab.robot.folder import run_to_folder
@@ -19,6 +24,7 @@ from attnlab.testing import config
 from attnlab.testing.digest import digest
 from tests.system import short_runs
 
+ROOT = Path(__file__).resolve().parents[2]
 GOLDEN = json.loads(short_runs.GOLDEN.read_text())
 
 
@@ -59,6 +65,12 @@ def test_a_short_study_is_not_worth_compiling(monkeypatch):
     assert choose(RunPlan(config()), PAYS_CYCLES, lambda: told.append(1)) == ("compiled", "engine=auto") and told
 
 
+def test_nothing_is_compiled_for_a_smoke_test():
+    asked = yaml.safe_load((ROOT / "conf/experiment/smoke.yaml").read_text())
+    runs = len(asked["hydra"]["sweeper"]["params"]["curiosity"].split(","))
+    assert runs * asked["max_cycles"] * (asked["train_episodes"] + asked["validation_episodes"]) < LOOKS_CYCLES
+
+
 def test_compiled_or_nothing(complain):
     code, err, written = complain("engine=compiled", "simulator=scripted", "behaviours=[give]", "needs=energy_only")
     assert code == 2 and written == [] and len(err.strip().splitlines()) == 1
@@ -96,6 +108,12 @@ class Slips(Exploration):
     def choose(self, values, visits, draw):
         {body}
 """
+LONG_STUDY = """
+from attnlab.robot.engines import PAYS_CYCLES, choose
+from attnlab.robot.plan import RunPlan
+from attnlab.testing import config
+print(*choose(RunPlan(config(exploration="slips")), PAYS_CYCLES), sep="\\n")
+"""
 FAULTS = {  # what the body of choose does, and what is said of it
     "what numba has not": ("return max(range(len(values)), key=lambda i: values[i])", "slips.py:"),
     "another number": ("self.seen = self.seen + 0.4\n        return 0 if self.seen < 3 else 1", "gives another"),
@@ -113,6 +131,10 @@ def test_a_part_that_does_not_compile_or_not_to_the_same(attnlab, tmp_path, faul
     refused = attnlab(*short, "engine=compiled")
     assert refused.returncode == 2 and said in refused.stderr and len(refused.stderr.strip().splitlines()) <= 2
     assert attnlab(*short).returncode == 0
+    done = subprocess.run([sys.executable, "-c", LONG_STUDY], cwd=tmp_path, capture_output=True, text=True, check=True,
+                          env={**os.environ, "PYTHONPATH": str(ROOT)})
+    engine, why = done.stdout.splitlines()
+    assert engine == "python" and said in why
 
 
 def test_what_raises_compiled_is_played_again(tmp_path, monkeypatch):
