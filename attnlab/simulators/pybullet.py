@@ -8,19 +8,30 @@ import os
 import weakref
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import cos, inf, pi, sin
+from operator import mul
 from types import ModuleType
 from typing import Any, Literal
 
-from attnlab.arithmetic import length, total
+from attnlab.arithmetic import length
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
 from attnlab.simulators.bullet_bodies import RAY_GROUP, add_floor, add_robot, add_solids, draw_beams
 from attnlab.simulators.bullet_camera import Rays, Segmentation
-from attnlab.simulators.robot import BEAMS, SONAR_HEIGHT_M, SONAR_MIN_M, WHEEL_BASE_M, WHEEL_RADIUS_M, arc
+from attnlab.simulators.robot import (
+    BEAMS,
+    CAMERA_HEIGHT_M,
+    RADIUS_M,
+    SONAR_HEIGHT_M,
+    SONAR_MIN_M,
+    WHEEL_BASE_M,
+    WHEEL_RADIUS_M,
+    arc,
+)
 
 PHYSICS_HZ = 240
+SURE_M = 0.01  # Bullet's contact is exact to some tenths of a millimetre
 
 
 @contextlib.contextmanager
@@ -79,13 +90,17 @@ class PyBullet(Simulator):
         self._ray_from = [(x, y, z) for x, y, *_ in BEAMS]
         self._ray_to = [(x + c * (o + reach), y + s * (o + reach), z) for x, y, c, s, o in BEAMS]
         self._beams = [(o, o + reach) for *_, o in BEAMS]
+        self._boxes = [(b.x_m, b.y_m, cos(b.yaw_rad), sin(b.yaw_rad), b.length_m / 2, b.width_m / 2)
+                       for b in self.layout.solids]
+        self._free_m = 0.0  # so far the robot may move before it can touch anything
         self._pose = (0.0, 0.0, 0.0)
         reach = 10.0 + length(self.layout.width_m, self.layout.depth_m)
         self._camera: Rays | Segmentation
         if params.camera == "rays":
             self._camera = Rays(p, self._client, self.camera, self._base_z, RAY_GROUP, self._surfaces, reach)
         else:
-            self._camera = Segmentation(p, self._client, self.camera, reach)
+            mirrored = all(solid.height_m == 2 * CAMERA_HEIGHT_M for solid in self.layout.solids)
+            self._camera = Segmentation(p, self._client, self.camera, reach, mirrored)
 
     def _build(self) -> None:
         """The same bodies in the same order, so that every start is the first one."""
@@ -108,6 +123,7 @@ class PyBullet(Simulator):
                                           physicsClientId=self._client)
         self.cycle = 0
         self._set_pose(x, y, heading)
+        self._free_m = 0.0
         self.trace[0] = self._pose
 
     def _set_pose(self, x: float, y: float, heading: float) -> None:
@@ -131,8 +147,8 @@ class PyBullet(Simulator):
     def blobs(self) -> list[Blob]:
         cam, solids, blobs = self.camera, self.layout.solids, []
         for body, columns in self._camera.look(*self._pose, self._robot, list(self._cubes)).items():
-            area = int(total(columns))
-            centre = total((i + 0.5) * n for i, n in enumerate(columns)) / area
+            area = sum(columns)
+            centre = (sum(map(mul, columns, range(cam.columns))) + area / 2) / area  # whole and half numbers: exact
             height, bearing, index = max(columns), cam.bearing(centre), self._cubes[body]
             blobs.append(Blob(solids[index].kind, bearing, height, area, cam.distance(height, bearing), index))
         return blobs
@@ -149,11 +165,24 @@ class PyBullet(Simulator):
         return cycles, False
 
     def _slide(self, v: float, w: float) -> bool:
-        p, c = self._p, self._client
         x, y, heading = arc(*self._pose, v, w, self.dt_s)
         self._set_pose(x, y, (heading + pi) % (2 * pi) - pi)
-        p.performCollisionDetection(physicsClientId=c)
+        self._free_m -= abs(v) * self.dt_s
+        if self._free_m <= 0.0:
+            self._free_m = self._clearance(x, y) - RADIUS_M - SURE_M
+        if self._free_m > 0.0:
+            return False
+        self._p.performCollisionDetection(physicsClientId=self._client)
         return self._touching()
+
+    def _clearance(self, x: float, y: float) -> float:
+        """Distance (m) of a point to the nearest solid, infinite without solids; 0 inside."""
+        nearest = inf
+        for at_x, at_y, c, s, half_length, half_width in self._boxes:
+            dx, dy = x - at_x, y - at_y
+            along, across = abs(c * dx + s * dy) - half_length, abs(c * dy - s * dx) - half_width
+            nearest = min(nearest, length(max(along, 0.0), max(across, 0.0)))
+        return nearest
 
     def _roll(self, v: float, w: float) -> bool:
         p, c = self._p, self._client
@@ -180,6 +209,7 @@ class PyBullet(Simulator):
 
     def restore(self, state: Any) -> None:
         pose, self.cycle, path, saved = state
+        self._free_m = 0.0
         self.trace[:self.cycle + 1] = path
         if saved is None:
             self._set_pose(*pose)

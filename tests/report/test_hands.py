@@ -29,10 +29,10 @@ def test_the_order_is_that_of_the_pieces(count):
 def test_what_kills_its_process_is_named_and_the_rest_is_done(count):
     def work(piece):
         if piece in "bd":
-            os.kill(os.getpid(), signal.SIGSEGV if piece == "b" else signal.SIGKILL)
+            os.kill(os.getpid(), signal.SIGTERM if piece == "b" else signal.SIGKILL)
         return piece.upper()
     assert answers(count, work, list("abcde")) == [
-        "A", "b: the process that did it died of SIGSEGV (signal 11)", "C",
+        "A", "b: the process that did it died of SIGTERM (signal 15)", "C",
         "d: the process that did it died of SIGKILL (signal 9)", "E"]
 
 
