@@ -13,7 +13,7 @@ from operator import mul
 from types import ModuleType
 from typing import Any, Literal
 
-from attnlab.arithmetic import length
+from attnlab.arithmetic import length, total
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
@@ -147,8 +147,8 @@ class PyBullet(Simulator):
     def blobs(self) -> list[Blob]:
         cam, solids, blobs = self.camera, self.layout.solids, []
         for body, columns in self._camera.look(*self._pose, self._robot, list(self._cubes)).items():
-            area = sum(columns)
-            centre = (sum(map(mul, columns, range(cam.columns))) + area / 2) / area  # whole and half numbers: exact
+            area = int(total(columns))
+            centre = (total(map(mul, columns, range(cam.columns))) + area / 2) / area  # whole and half numbers: exact
             height, bearing, index = max(columns), cam.bearing(centre), self._cubes[body]
             blobs.append(Blob(solids[index].kind, bearing, height, area, cam.distance(height, bearing), index))
         return blobs
