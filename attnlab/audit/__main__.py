@@ -1,14 +1,19 @@
-"""``python -m attnlab.audit [FILE] [--all]``: which cells of a summary table cannot be true together."""
+"""``python -m attnlab.audit [FILE] [--all]``: which cells of a summary table cannot be true together; ``--claims``:
+which claims cannot."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
+from attnlab.audit.certificate import certify
 from attnlab.audit.checks import FITS, IMPOSSIBLE, STRAINED, Finding, audit
 from attnlab.audit.table import Table, load_table
+from attnlab.claims import DEFAULT as CLAIMS
 from attnlab.console import guarded
+from attnlab.errors import ConfigError
 
 
 def main(argv: Sequence[str]) -> int:
@@ -17,7 +22,17 @@ def main(argv: Sequence[str]) -> int:
                                      description="Check a summary table by the model's own identities and bounds.")
     parser.add_argument("file", nargs="?", help="name or path of a table (default: Table 5 of the paper)")
     parser.add_argument("--all", action="store_true", help="show what fits too")
+    parser.add_argument("--claims", nargs="?", const=CLAIMS, metavar="FILE", help="which pairs of claims exclude each "
+                        f"other, instead of a table ({CLAIMS})")
+    parser.add_argument("--seen", nargs="+", default=[], type=Path, metavar="VERDICTS", help="verdicts.csv of studies, "
+                        "in which pairs of claims were seen to hold")
+    parser.add_argument("--out", type=Path, metavar="CSV", help="write the pairs of claims, each with its reason")
     given = parser.parse_args(list(argv))
+    for name in ("seen", "out"):
+        if getattr(given, name) and given.claims is None:
+            raise ConfigError(f"--{name}", "is for claims", "--claims")
+    if given.claims is not None:
+        return certify(given.claims, given.seen, given.out)
     table = load_table(given.file)
     findings = audit(table)
     _print(table, findings, given.all)

@@ -83,6 +83,7 @@ class BoutVariation(Measure):
     """Coefficient of variation (%) of the cycles from the start of a bout to that of the next, mean over the episodes
     with ``least`` bouts: 0 for a perfect rhythm. nan for a seed without such an episode."""
     unit = "%"
+    bounds = (0.0, float("inf"))
     Params = _Bouts
 
     def of(self, runs: Runs) -> dict[int, float]:

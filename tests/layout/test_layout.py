@@ -31,7 +31,8 @@ FLOORS = (
     ("robot", "results", "stats"),
     ("measures",),
     ("figures",),
-    ("claims", "audit"),
+    ("claims",),
+    ("audit",),
     ("report",),
     # what knows both
     ("launch",),
