@@ -50,6 +50,23 @@ def mean_interval(values: npt.ArrayLike, confidence: float = 0.95) -> Interval:
     return Interval(float(value), float(low), float(high))
 
 
+def difference_interval(one: npt.ArrayLike, other: npt.ArrayLike, confidence: float = 0.95) -> Interval:
+    """The mean of one sample less that of another that has nothing to do with it, with Welch's (1947) t interval;
+    missing values are left out. Ends are nan where a sample has fewer than two values."""
+    x, y = (kept[~np.isnan(kept)] for kept in (np.asarray(one, float), np.asarray(other, float)))
+    if not x.size or not y.size:
+        return Interval(float("nan"), float("nan"), float("nan"))
+    apart = float(x.mean() - y.mean())
+    if min(x.size, y.size) < 2:
+        return Interval(apart, float("nan"), float("nan"))
+    a, b = float(x.var(ddof=1)) / x.size, float(y.var(ddof=1)) / y.size
+    if a + b == 0.0:
+        return Interval(apart, apart, apart)
+    freedom = (a + b) ** 2 / (a ** 2 / (x.size - 1) + b ** 2 / (y.size - 1))
+    reach = float(t_quantile((1 + confidence) / 2, freedom)) * float(np.sqrt(a + b))
+    return Interval(apart, apart - reach, apart + reach)
+
+
 def median_interval(values: npt.ArrayLike, reference: float = 0.0, confidence: float = 0.95) -> Ends:
     """Median with the exact interval between two order statistics, and the sign test's p (twice the smaller tail).
 

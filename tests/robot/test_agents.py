@@ -11,19 +11,11 @@ from attnlab.config import run_key
 from attnlab.errors import ConfigError
 from attnlab.robot.agents import pinned, saved
 from attnlab.robot.episodes import play_run
-from attnlab.robot.folder import run_to_folder
 from attnlab.robot.plan import RunPlan
 from attnlab.tables.files import mark_of, read_json
 from attnlab.tables.study import condition_key
 from attnlab.testing import config
-
-
-def store(folder, **settings):
-    """Do a run of these settings and keep it; its folder."""
-    whole = config(**settings)
-    assert run_to_folder(whole, folder, {"run": folder.name, "key": run_key(whole), "overrides": [], "swept": {}}), \
-        (folder / "run.json").read_text()
-    return folder
+from tests.robot.stored import store
 
 
 @pytest.fixture(scope="module")
