@@ -2,6 +2,7 @@
 
     python docs/results/make.py                         all studies, then the page: the numbers of README.md beside this
     python docs/results/make.py cr_vs_ncr controls      some of them
+    python docs/results/make.py search                  the search for a reading in which the paper is true, an hour
     python docs/results/make.py --keep                  go on where it was interrupted
     python docs/results/make.py --page                  no runs: the page from the tables that are here
     python docs/results/make.py --short --outputs DIR --to DIR   does it work? Minutes, numbers mean nothing
@@ -25,6 +26,7 @@ sys.path.insert(0, str(HERE))
 import contrasts  # noqa: E402  a folder of scripts, no package
 import own_tables  # noqa: E402
 import page  # noqa: E402
+import truth  # noqa: E402
 from studies import BY_NAME, SHORT, STUDIES, Study  # noqa: E402
 
 ROOT = HERE.parents[1]
@@ -34,14 +36,15 @@ FIGURES = ("fig06_survival", "fig07_rewards", "fig09_safety", "fig11_paths", "po
 def main() -> int:
     """Entry point; the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="STUDY", help=f"of {', '.join(BY_NAME)} (all)")
+    parser.add_argument("names", nargs="*", metavar="STUDY", help=f"of {', '.join(BY_NAME)} (all), "
+                        "audit, search")
     parser.add_argument("--outputs", type=Path, default=Path("outputs"), help="where runs are kept (outputs)")
     parser.add_argument("--to", type=Path, default=HERE, help="where tables, figures and page go (beside this script)")
     parser.add_argument("--keep", action="store_true", help="keep what is complete already in the outputs")
     parser.add_argument("--short", action="store_true", help="two seeds of a few short episodes; give --to, too")
     parser.add_argument("--page", action="store_true", help="make no run, write the page alone")
     a = parser.parse_args()
-    unknown = sorted(set(a.names) - set(BY_NAME))
+    unknown = sorted(set(a.names) - {*BY_NAME, truth.SEARCH, truth.AUDIT})
     if unknown or (a.short and a.to == HERE):
         parser.error(f"there is no study {', '.join(unknown)}" if unknown else "--short needs --to, not these results")
     for study in () if a.page else STUDIES:
@@ -51,6 +54,9 @@ def main() -> int:
                 print(f"{study.name} is not complete: nothing of it was copied; --keep goes on", file=sys.stderr)
                 return 1
             collect(study, a.outputs / study.name, a.to / study.name, minutes)
+    if not a.page and not truth.make(a.names, a.outputs, a.to):
+        print("the search was stopped: nothing of it was copied; the same command goes on", file=sys.stderr)
+        return 1
     write_pages(a.to)
     return 0
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import found
 import own
+import truth
 from found import Row
 from studies import NCR, OWN, STUDIES, Study
 
@@ -46,7 +47,7 @@ def page(folder: Path) -> str:
     parts += summary(folder, "curiosities", "Every model of curiosity",
                      "All live in the same worlds from the same starts; no model was tuned for it. `surprise` is also "
                      "called `litman_itti`: one model, named once.")
-    parts += [curious(folder), *multiverse(folder)]
+    parts += [curious(folder), *multiverse(folder), *truth.section(folder)]
     for study in OWN:
         parts += own_study(folder, study)
     return "\n\n".join(part for part in parts if part) + "\n"
