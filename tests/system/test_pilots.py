@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import yaml
 
 from attnlab.errors import ConfigError
 from attnlab.launch import pilots
@@ -229,6 +231,15 @@ def test_pilots_that_failed_decide_nothing(decide, tmp_path):
     with pytest.raises(pilots.UndecidedError, match="2 pilots failed"):
         decide(sound=["r000", "r001"], failed=[1, 2])
     assert not (tmp_path / "mine").exists()
+
+
+def test_what_is_declared_is_what_the_docs_say():
+    text = (ROOT / "docs" / "claims.md").read_text()
+    told = next(found for block in re.findall(r"```yaml\n(.*?)```", text, re.S)
+                if "pilot" in (found := yaml.safe_load(block).get("variants") or {}))
+    declared = yaml.safe_load((ROOT / "conf" / "experiment" / "multiverse.yaml").read_text())["variants"]
+    assert {name: told[name] for name in ("size", "factors", "pilot")} == \
+        {name: declared[name] for name in ("size", "factors", "pilot")}
 
 
 SHORT = ("-m", "simulator=planar", "picture=false", "report=false", "study=mine", "seed=0-1")
