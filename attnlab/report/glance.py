@@ -12,7 +12,7 @@ MOST = 40
 def section(study: Study) -> tuple[Section, bytes]:
     """The table for the page (of the first 40 conditions) and as CSV (of all)."""
     frame = summary_frame(study, study.named())
-    names = ", ".join(study.behaviours["behaviour"].unique())
+    names = ", ".join(study.plain("behaviours")["behaviour"].unique())
     rows = [shown({str(name): value for name, value in row.items()}) for row in frame.head(MOST).to_dict("records")]
     more = f" The first {MOST} of {len(frame)}; all are in conditions.csv." if len(frame) > MOST else ""
     html = table(list(frame.columns), rows, range(1, len(frame.columns))) + (
