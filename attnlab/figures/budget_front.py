@@ -41,7 +41,7 @@ class Spent(NamedTuple):
 class BudgetFront(Figure):
     """Survival and safety against the looks that were taken, of everybody under several caps on looks, with the Pareto
     front: those whom nobody with as few looks does better than."""
-    title, order = "What looks buy", 141
+    title, order = "What looks buy", 11
     how = "A mark is a condition under a cap: means over seeds with t intervals (95 %); a line joins its caps. The " \
         "grey stair is the Pareto front of the means: nobody gets more with as few looks."
 

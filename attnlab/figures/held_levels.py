@@ -29,7 +29,7 @@ Lines = dict[str, Callable[["Runs"], Mapping[int, float]]]  # what is drawn: nam
 class HeldLevels(Figure):
     """Looks, survival, safety and needs in validation with the level of curiosity in the state held at each of its
     values, and how much of the table of each level was ever visited in training."""
-    title, order = "Curiosity levels that are held", 125
+    title, order = "Curiosity levels that are held", 13
     how = "Means over seeds with t intervals (95 %). All robots of a seed have learned the same; only the level in " \
         "the state differs. Where a level's states were hardly visited, little was learned: all values of such a " \
         "state are still 0, and the shortest period is taken."

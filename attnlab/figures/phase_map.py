@@ -47,7 +47,7 @@ class Cell(NamedTuple):
 class PhaseMap(Figure):
     """Survival of CR less that of NCR over distance of sources and number of obstacles, a panel for each E_well, with
     the line of no difference and the paper's world."""
-    title, order = "Where curiosity pays", 64
+    title, order = "Where curiosity pays", 12
     how = "A cell is a world: the mean difference over paired seeds, in points; bold where its t interval (95 %, not " \
         "corrected for the number of cells) leaves out 0. Line: no difference, between the cells' centres. Ring: the " \
         "paper's world. Hatched: NCR (plain) survives less than 90 % in the first half of training."

@@ -42,7 +42,7 @@ Step = tuple[str, Difference]
 class Steps(Figure):
     """Differences between neighbouring variants of a study, in the order in which it names them, ranked: survival early
     and late in training and in validation, and safety."""
-    title, order = "What each step changes", 62
+    title, order = "What each step changes", 10
     how = "A row is a condition less the one before it in the study's order: mean over paired seeds with its t " \
         "interval (95 %), the largest on top. Blue: better, orange: worse, grey: the interval holds 0."
 
@@ -61,9 +61,12 @@ class Steps(Figure):
         return figure
 
     def say(self, conditions: Conditions) -> str:
-        parts = [f"{which}: " + "; ".join(f"{name} {step.said(DIGITS[which])}" for name, step in found if step.side)
-                 for which, found in steps(conditions).items() if any(step.side for _, step in found)]
-        return f"Clear steps, {'. '.join(parts)}." if parts else "No step is clear."
+        parts = []
+        for which, found in steps(conditions).items():
+            clear = [f"{name} {step.said(DIGITS[which])}" for name, step in found if step.side]
+            if clear:
+                parts.append(f"{which[0].upper()}{which[1:]}: {'; '.join(clear)}")
+        return f"Clear steps. {'. '.join(parts)}." if parts else "No step is clear."
 
 
 def steps(conditions: Conditions) -> dict[str, list[Step]]:
