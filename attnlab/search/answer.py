@@ -66,5 +66,5 @@ def sentences(rows: Sequence[Row]) -> list[str]:
     untestable = [claim for claim in never if all(BY_WORD[row[claim]] is Finding.UNTESTABLE for row in sound)]
     said.append(f"Of the {len(sound)} sound finalists, none has {listed(never, 'a claim that the others lack')}"
                 + (f" ({', '.join(untestable)} cannot be tested in any)" if untestable else "")
-                + f"; {listed(always, 'no claim')} hold{'s' if len(always) == 1 else ''} in all of them.")
+                + f"; {listed(always, 'no claim')} hold{'s' if len(always) < 2 else ''} in all of them.")
     return said

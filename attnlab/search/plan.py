@@ -13,6 +13,7 @@ from attnlab.search.score import WHOLE
 SHAPE = ((2, 120), (3, 150), (4, 250), (4, WHOLE), (6, WHOLE))  # (seeds, episodes) of each rung; equal times
 FEWEST = 8  # readings a rung
 START = 0.35  # of what a whole run takes, what one takes that hardly lives
+AT_FIRST = 1.25  # roles that play a reading of the first rung: of four, three are not sound, and only the control plays
 RESERVE = 0.9  # share of the time that is given out: loading and judging take the rest
 
 
@@ -39,13 +40,14 @@ class Clock:
         left = RESERVE * 60 * self.minutes - self.spent_s - self.ends * self.run_s
         seeds, episodes = SHAPE[place]
         share = left / (len(SHAPE) - place)
-        readings = int(share / (self.run_s * self.tempo * roles * seeds * run_cost(episodes)))
+        players = AT_FIRST if place == 0 else roles
+        readings = int(share / (self.run_s * self.tempo * players * seeds * run_cost(episodes)))
         if readings < FEWEST and place == 0:
             need = math.ceil((self.spent_s + self.ends * self.run_s + len(SHAPE) * share_s(self, roles)) / RESERVE / 60)
             raise ConfigError("--minutes", f"{self.minutes:g} are too few at {self.run_s:.2f} s a run",
                               f"About {need} would do; or name the rungs: --rungs 400:2:120,...")
         rung = Rung(max(FEWEST, readings), seeds, episodes)
-        self.foreseen = rung.readings * seeds * roles * run_cost(episodes) * self.run_s
+        self.foreseen = rung.readings * seeds * players * run_cost(episodes) * self.run_s
         return rung
 
     def took(self, seconds: float) -> None:

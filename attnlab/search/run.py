@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from attnlab.claims import claims_mark
 from attnlab.claims.files import load_claims
@@ -99,22 +99,26 @@ class Search:
         return begun
 
     def _score(self, place: int, rung: Rung, rows: Sequence[Row]) -> dict[Row, float]:
-        """Play the readings of a rung, and what each is worth: the sum of its claims' scores."""
+        """Play the readings of a rung, and what each is worth: the sum of its claims' scores. Whether one is sound its
+        control says alone, so that the others play for the sound ones only."""
         started = time.monotonic()
         signs = score.signs(self.claims, PAIR, rung.episodes)
-        played = self.bench.play(f"rung{place + 1}", {code(row): self.space.settings(row) for row in rows}, PAIR,
-                                 self.journal.seeds(rung, self.given.first_seed), rung.episodes)
-        why, claims, found = dict[Row, str](), dict[Row, dict[str, float]](), dict[Row, float]()
-        for row in rows:
-            roles = played.runs[code(row)]
-            said = score.why_unsound(roles["control"], rung.episodes)
-            if said:
-                why[row], found[row] = said, UNSOUND
-                continue
-            claims[row] = score.scores(signs, roles)
-            found[row] = score.worth(claims[row])
+        readings = {code(row): self.space.settings(row) for row in rows}
+        seeds = self.journal.seeds(rung, self.given.first_seed)
+
+        def play(names: Iterable[str], roles: Sequence[str]) -> Played:
+            return self.bench.play(f"rung{place + 1}", {name: readings[name] for name in names}, roles, seeds,
+                                   rung.episodes)
+        controls = play(readings, PAIR[1:]).runs
+        said = {row: score.why_unsound(controls[code(row)]["control"], rung.episodes) for row in rows}
+        sound = [row for row in rows if not said[row]]
+        claims = {}
+        if sound:
+            played = play(map(code, sound), PAIR).runs
+            claims = {row: score.scores(signs, played[code(row)]) for row in sound}
+        found = {row: score.worth(claims[row]) if row in claims else UNSOUND for row in rows}
         self.clock.took(time.monotonic() - started)
-        self.journal.done(Step(rung, found), claims, why)
+        self.journal.done(Step(rung, found), claims, {row: why for row, why in said.items() if why})
         self._keep()
         return found
 

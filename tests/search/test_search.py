@@ -194,7 +194,7 @@ def test_the_answer_says_what_the_table_says():
 
 @pytest.mark.long
 def test_a_tiny_search_stopped_and_gone_on(here, tmp_path):
-    typed = ["--rungs", "8:1:30,4:2:30", "--finalists", "2", "--fresh-seeds", "500-505", "--episodes", "30",
+    typed = ["--rungs", "16:1:30,4:1:30", "--finalists", "1", "--fresh-seeds", "500-501", "--episodes", "30",
              "cluster=serial"]
     first = here(*typed, module="attnlab.search")
     assert first.returncode == 0 and "claims hold together" in first.stdout
