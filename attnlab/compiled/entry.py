@@ -15,10 +15,11 @@ from attnlab.compiled.words import word_code
 from attnlab.cycle import live
 from attnlab.kernels.compile import compiled, is_kept
 
-_roots: dict[str, Any] = {}  # by key: what kind of object is at an address
-
 Episode = Callable[[int, int, bool, float, float, float], int]
 Died = Callable[[int, float, bool], float]
+
+_roots: dict[str, Any] = {}  # by key: what kind of object is at an address
+_entries: dict[str, tuple[Episode, Died]] = {}  # by key: what this process has loaded or compiled
 
 
 @intrinsic(prefer_literal=True)
@@ -33,6 +34,8 @@ def entries(key: str, agent: Reference, exploration: Any, attention: Any, only_k
             ) -> tuple[Episode, Died] | None:
     """The compiled functions of an agent of this kind, from the disk if they are there, otherwise None with
     ``only_kept``; ``key`` says of which code and kinds. Raises whatever numba does if a part does not compile."""
+    if key in _entries:
+        return _entries[key]
     agent_key, exploration_key, attention_key = f"{key} agent", f"{key} exploration", f"{key} attention"
     _roots.update({agent_key: agent, exploration_key: exploration, attention_key: attention})
 
@@ -49,4 +52,5 @@ def entries(key: str, agent: Reference, exploration: Any, attention: Any, only_k
     if only_kept and not all(is_kept(signature, function, nogil=True, **OPTIONS) for signature, function in both):
         return None
     one, other = (compiled(signature, nogil=True, **OPTIONS)(function) for signature, function in both)
+    _entries[key] = one, other
     return one, other

@@ -37,7 +37,12 @@ def names(thing: Any) -> list[str]:
 
 def hints(cls: type) -> dict[str, Any]:
     """Types that the class says its attributes have."""
-    try:
-        return typing.get_type_hints(cls)
-    except Exception:  # noqa: BLE001  names that exist for type checkers alone
-        return {}
+    if cls not in _hints:
+        try:
+            _hints[cls] = typing.get_type_hints(cls)
+        except Exception:  # noqa: BLE001  names that exist for type checkers alone
+            _hints[cls] = {}
+    return _hints[cls]
+
+
+_hints: dict[type, dict[str, Any]] = {}
