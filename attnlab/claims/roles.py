@@ -31,7 +31,8 @@ def strata(claims: Claims, conditions: Conditions) -> Combinations:
     found: Combinations = {}
     for group in groups.values():
         for values in group:
-            name = _beginning([of["variant"] for of in group]) if merged else \
+            begins = _beginning([of["variant"] for of in group]) if merged else ""
+            name = begins or ", ".join(f"{name}={values[name]}" for name in kept) if merged else \
                 conditions.stratum_name(tuple(values.values())) if len(kept) == len(values) else \
                 ", ".join(f"{name}={values[name]}" for name in kept)
             found.setdefault(name, {name: values[name] for name in kept})

@@ -8,6 +8,8 @@ import matplotlib.figure
 import pytest
 
 import attnlab
+from attnlab.claims.files import load_claims
+from attnlab.claims.roles import strata
 from attnlab.figures.base import FigureContext, make
 from attnlab.figures.budget_front import Spent, front
 from attnlab.figures.compared import EARLY, LATE, SAFETY, VALID, Difference, asked, difference, looks, outcome
@@ -119,3 +121,11 @@ def test_states_that_were_visited(short):
                                                    strict=True) if visits}
     assert visited(conditions, "HH")[run] == pytest.approx(100 * len(states) / (3 * 4 * 6))
     assert len({round(share, 9) for share in visited(conditions, "HH").values()}) <= 2  # a seed's training is one
+
+
+def test_claims_are_judged_under_each_cap_and_in_each_world(short):
+    """What tells no roles apart makes a combination, though conditions are variants."""
+    found = {name: list(strata(load_claims(name), short(name))) for name in STUDIES}
+    assert found["matched_budget"] == ["learner.looks_per_s=1.8", "learner.looks_per_s=3"]
+    assert {name: len(of) for name, of in found.items()} == {"bigger_table": 1, "clamped_levels": 1,
+                                                             "matched_budget": 2, "where_curiosity_pays": 4}
