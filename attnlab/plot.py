@@ -4,7 +4,8 @@
     plot.survival("outputs/cr_vs_ncr")              # a folder, a study that was loaded, or its conditions
     plot.attention_economics(study, baselines="outputs/baselines")
 
-Each returns a matplotlib Figure; ``dir(attnlab.plot)`` names them all.
+Each returns a matplotlib Figure, one that says so where the study lacks what is drawn; ``dir(attnlab.plot)`` names them
+all.
 """
 
 from __future__ import annotations
@@ -37,8 +38,9 @@ def __getattr__(name: str) -> Callable[..., Figure]:
 
         from attnlab.figures.style import looks
         figure = make(name, FigureContext(None if baselines is None else _conditions(baselines)))
+        conditions = _conditions(study)
         with looks():
-            drawn = figure.draw(_conditions(study))
+            drawn = figure.draw(conditions) if figure.applies(conditions) else _nothing(figure.heading)
         plt.close(drawn)  # a notebook shows what is returned; left open, it would show it twice
         return drawn
     draw.__name__ = draw.__qualname__ = name
@@ -48,6 +50,15 @@ def __getattr__(name: str) -> Callable[..., Figure]:
 
 def __dir__() -> list[str]:
     return gallery()
+
+
+def _nothing(heading: str) -> Figure:
+    """A figure that says that a study lacks what is drawn."""
+    from attnlab.figures.panels import grid
+    from attnlab.figures.style import empty
+    drawn, (ax,) = grid(1)
+    empty(ax, f"{heading}: nothing of it is in this study")
+    return drawn
 
 
 def _conditions(study: Source) -> Conditions:

@@ -46,6 +46,8 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
         (target / "figures").mkdir(parents=True, exist_ok=True)
     except OSError as cause:
         raise ConfigError("--out", f"{target} cannot be written ({cause.strerror or cause})") from None
+    if tell is not None:
+        tell(0, len(gallery()))  # what was given is in order: from here on it takes its time
     for name in TABLES:
         conditions.frame(name)  # read before hands are forked, once for all of them
     combinations = strata(claims, conditions)

@@ -16,17 +16,22 @@ class Steps:
     """``what`` is done, how many steps of how many, and about how long the others take: a bar where standard error is a
     terminal, a plain line at the start and now and then where it is not.
 
-    Use as a context manager around the work, and as the function that the work tells. It starts no thread, so that the
-    work may fork.
+    Use as a context manager around the work, and as the function that the work tells: nothing is shown before it does,
+    so that bad input is one line. It starts no thread, so that the work may fork.
     """
 
     def __init__(self, what: str, unit: str):
         self.what, self.unit = what, unit
         self._bar: Progress | None = None
         self._task: Any = None  # rich's word for the bar's line
+        self._shown = False
         self._started = self._last = time.monotonic()
 
     def __enter__(self) -> Self:
+        return self
+
+    def _show(self) -> None:
+        self._shown = True
         if sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
@@ -37,7 +42,6 @@ class Steps:
             self._bar.start()
         else:
             print(self.what, file=sys.stderr, flush=True)
-        return self
 
     def __exit__(self, *_: object) -> None:
         if self._bar:
@@ -46,6 +50,8 @@ class Steps:
 
     def __call__(self, done: int, of: int) -> None:
         """So many steps of so many are done."""
+        if not self._shown:
+            self._show()
         now = time.monotonic()
         if done == 0:
             self._started = self._last = now  # what comes before the first step says nothing of their pace

@@ -140,5 +140,5 @@ def test_reward_mixes_by_wanting():
 
 
 def test_validation_learns_nothing():
-    a = drive(attention([0.5]), Greedy(None), 20, learning=False)
+    a = drive(attention([0.5]), Greedy(Greedy.Params()), 20, learning=False)
     assert all(q == 0 for row in a.learner.q for q in row)
