@@ -80,7 +80,15 @@ def test_it_is_said_once_that_it_compiles_and_why_it_did_not(monkeypatch, capsys
     assert [job.engine.name for job in jobs] == ["python"] * 4 + ["compiled"]
 
 
-def test_ctrl_c_that_c_code_loses_is_heard_in_the_end(capsys):
+@pytest.fixture
+def interruptible():
+    """Ctrl-C is heard, also where the tests were started in the background of a shell, which ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_that_c_code_loses_is_heard_in_the_end(capsys, interruptible):
     """A callback from C cannot raise: Python prints the exception and forgets it."""
     import ctypes
 
