@@ -52,13 +52,14 @@ def joint_csv(found: Multiverse, curves: Curves) -> bytes:
         numbers = (j.p[m], j.p_median[m], j.p_clear[m], j.p_family[m])
         levels = "; ".join(f"{at.level}: {at.above} of {at.values}" for at in said.levels)
         rows.append([of.measure, of.claim, of.who, of.whom, "lower" if of.sign < 0 else "higher", len(found.names),
-                     j.values[m], curves.differences.shape[-1], f"{j.median[m]:.5g}", j.clear[m], j.opposite[m],
+                     j.values[m], curves.differences.shape[-1], f"{j.median[m]:.5g}",
+                     int((curves.effects[:, m] > 0).sum()), j.clear[m], j.opposite[m],
                      *(f"{x:.5g}" for x in numbers), j.patterns, said.kind, of.told(said.side), said.on_side,
                      "; ".join(said.factors), levels, mover, f"{share:.4f}"])
     return _csv(("measure", "claim", "role", "against", "claimed", "readings", "with_value", "seeds", "median_d",
-                 "clear_as_claimed", "clear_opposite", "p_joint", "p_median", "p_clear", "p_family", "patterns",
-                 "statement", "side", "readings_on_side", "hangs_on", "as_claimed_by_level", "moved_most_by",
-                 "its_share"), rows)
+                 "as_claimed", "clear_as_claimed", "clear_opposite", "p_joint", "p_median", "p_clear", "p_family",
+                 "patterns", "statement", "side", "readings_on_side", "hangs_on", "as_claimed_by_level",
+                 "moved_most_by", "its_share"), rows)
 
 
 def shares_csv(curves: Curves) -> bytes:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -51,6 +52,12 @@ class Decided:
     def sound(self) -> int:
         """How many of those tried are sound."""
         return len([tried for tried in self.tried if not tried.reason])
+
+    def casualties(self) -> dict[str, int]:
+        """Why readings are not sound -> how many, most first; one with two reasons counts for both."""
+        reasons = Counter("survives too little" if why.startswith("survives ") else why for of in self.tried
+                          for why in of.reason.split("; ") if why)
+        return dict(reasons.most_common())
 
 
 def write_decided(folder: Path, decided: Decided) -> None:

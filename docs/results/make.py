@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -27,9 +28,11 @@ import contrasts  # noqa: E402  a folder of scripts, no package
 import own_tables  # noqa: E402
 import page  # noqa: E402
 import truth  # noqa: E402
+import universe  # noqa: E402
 from studies import BY_NAME, SHORT, STUDIES, Study  # noqa: E402
 
 ROOT = HERE.parents[1]
+READINGS = "readings.csv"  # of a multiverse: which are sound
 FIGURES = ("fig06_survival", "fig07_rewards", "fig09_safety", "fig11_paths", "policies", "attention_economics")
 
 
@@ -77,12 +80,14 @@ def collect(study: Study, made: Path, target: Path, minutes: float | None = None
     shutil.rmtree(target, ignore_errors=True)
     target.mkdir(parents=True)
     report = made / "report"
+    began = sum(os.times()[:4])  # of this process and of those that draw for it
     if study.figures:
         from attnlab.report.build import build
         shutil.rmtree(report, ignore_errors=True)
         build(made, None, None, None, quiet=True, only=study.figures)
-    for file in sorted(report.glob("*.csv")) + [report / "figures" / f"{name}.png"
-                                                for name in (*FIGURES, *study.figures)]:
+    page_cpu_s = sum(os.times()[:4]) - began
+    for file in [*sorted(report.glob("*.csv")), made / READINGS, *(report / "figures" / f"{name}.png"
+                                                                   for name in (*FIGURES, *study.figures))]:
         if file.exists() and file.stem not in study.leave:
             shutil.copy(file, target)
     if study.page and (report / "index.html").exists():
@@ -91,7 +96,11 @@ def collect(study: Study, made: Path, target: Path, minutes: float | None = None
     if study.pairs:
         contrasts.write(target / "contrasts.csv", contrasts.rows(loaded, study.pairs))
     own_tables.write(study.name, loaded, target)
-    (target / "made.json").write_text(json.dumps(made_with(study, loaded, minutes), indent=1) + "\n")
+    with_ = made_with(study, loaded, minutes)
+    if study.figures:
+        with_["page_cpu_s"] = round(page_cpu_s, 1)
+    with_ |= universe.pilots(made, attnlab.load)
+    (target / "made.json").write_text(json.dumps(with_, indent=1) + "\n")
 
 
 def made_with(study: Study, loaded: Any, minutes: float | None) -> dict[str, Any]:

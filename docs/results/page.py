@@ -9,6 +9,7 @@ from pathlib import Path
 import found
 import own
 import truth
+import universe
 from found import Row
 from studies import NCR, OWN, STUDIES, Study
 
@@ -29,8 +30,6 @@ Differences are paired by seed, with Student's t intervals (95 %) over seeds; "c
 out 0, uncorrected for the number of rows. Greedy validation was inferred from the activations of Table 5, so agreement
 with those cells is no evidence."""
 OLD = "**Made under older rules**, and not comparable with what `python docs/results/make.py` makes today."
-OLD_READINGS = "**Made under the old rules**: claims of version 1, eq 7 without a sigma_min of its own, penalties " \
-    "within rewards, safety as AVOID last perceived it. Its shares are not comparable with the rest of this page."
 
 
 def page(folder: Path) -> str:
@@ -47,7 +46,7 @@ def page(folder: Path) -> str:
     parts += summary(folder, "curiosities", "Every model of curiosity",
                      "All live in the same worlds from the same starts; no model was tuned for it. `surprise` is also "
                      "called `litman_itti`: one model, named once.")
-    parts += [curious(folder), *multiverse(folder), *truth.section(folder)]
+    parts += [curious(folder), *universe.section(folder), *truth.section(folder)]
     for study in OWN:
         parts += own_study(folder, study)
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -173,28 +172,6 @@ def curious(folder: Path) -> str:
         lines.append(f"- {quantity}: clearly more than NCR (plain) {', '.join(of[found.MORE]) or 'none'}; clearly less "
                      f"{', '.join(of[found.LESS]) or 'none'}.")
     return "\n".join(lines)
-
-
-def multiverse(folder: Path) -> list[str]:
-    """Shares of readings, and what moves them most."""
-    rows, effects = found.table(folder, "multiverse", "combinations"), found.table(folder, "multiverse", "effects")
-    if not rows:
-        return []
-    columns, shown = ("difference_of_shares", "low", "high"), []
-    for claim, title in {r["claim"]: r["title"] for r in found.table(folder, "multiverse", "verdicts")}.items():
-        testable = [of for row in rows if (of := Finding(row[claim])) != Finding.UNTESTABLE]
-        share = f"{100 * sum(of.holds for of in testable) / len(testable):.0f} %" if testable else "-"
-        clear = [e for e in effects if e["claim"] == claim
-                 and ("low" not in e or float(e["low"]) > 0 or float(e["high"]) < 0)]  # older tables have intervals
-        most = max(clear, key=lambda e: abs(float(e[columns[0]])), default=None)
-        numbers = [f"{100 * float(most[column]):+.0f}" for column in columns if column in most] if most else []
-        moved = "-" if most is None else f"{most['factor']}={most['level']} (not {most['default']}): {numbers[0]}" + (
-            f" [{', '.join(numbers[1:])}]" if numbers[1:] else "")
-        shown.append([f"{claim} {title}", f"{len(testable)} of {len(rows)}", share, moved])
-    return ["## The multiverse", "" if found.made(folder, "multiverse") else OLD_READINGS,
-            f"`python -m attnlab +experiment=multiverse`: {len(rows)} readings of the paper's open sentences "
-            "([multiverse](multiverse)).",
-            grid(("claim", "testable in", "holds in", "moved most by (difference of shares in points)"), shown)]
 
 
 def own_study(folder: Path, study: Study) -> list[str]:

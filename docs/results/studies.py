@@ -70,5 +70,10 @@ STUDIES = (
     Study("curiosities", ("+experiment=curiosities", "-m", "seed=0-4"), "every model of curiosity, planar",
           (("", NCR),), page=True),
     *OWN,
+    Study("multiverse", ("+experiment=multiverse", "-m"), "readings of what the paper leaves open, planar",
+          page=True, claims="multiverse", figures=("multiverse_curves",),
+          leave=("seeds", "verdicts", "curve", "table5", "conditions"),
+          short=("seed=0-5", "variants.size=8", "variants.pilot.episodes=8", "variants.pilot.survival=0",
+                 "variants.pilot.candidates=96")),
 )
 BY_NAME = {study.name: study for study in STUDIES}

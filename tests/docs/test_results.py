@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from attnlab.claims import DEFAULT, claims_hash
 from attnlab.claims.files import load_claims
 from attnlab.results import load
+from attnlab.tables.readings import Decided, Tried, write_decided
 from tests.report.small_study import write_study
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -122,6 +123,68 @@ def test_every_study_of_the_page_can_be_asked_for(script):
     for study in script("studies").STUDIES:
         words = [word for word in study.typed if not word.startswith(("-m", "seed="))]
         assert attnlab.compose(*words)["study"] == study.name
+
+
+JOINT = ("measure,claim,role,against,claimed,readings,with_value,seeds,median_d,as_claimed,clear_as_claimed,"
+         "clear_opposite,p_joint,p_median,p_clear,p_family,patterns,statement,side,readings_on_side,hangs_on,"
+         "as_claimed_by_level,moved_most_by,its_share")
+
+
+def joint(folder, *rows):
+    """joint.csv of a multiverse of 10 readings, as if made today: (measure, against, d, as claimed, clear as claimed,
+    clear opposite, p, statement, side, hangs on, levels), each claimed to be lower."""
+    (folder / "multiverse").mkdir(parents=True)
+    lines = [f"{m},C{i},CR,{whom},lower,10,10,6,{d},{on},{clear},{no},0.1,0.1,0.1,{p},64,{kind},{side},"
+             f"{max(on, 10 - on)},{hangs},{levels},crash,0.2"
+             for i, (m, whom, d, on, clear, no, p, kind, side, hangs, levels) in enumerate(rows)]
+    (folder / "multiverse" / "joint.csv").write_text("\n".join([JOINT, *lines]))
+    made = {"command": "typed", "claims_sha256": claims_hash("multiverse"), "seeds": 6, "runs": 180, "asked_for": 180,
+            "cpu_s_of_runs": 600, "cycles": 300_000_000, "code": {"hash": "abc"}, "page_cpu_s": 90.0,
+            "pilots": {"readings": "12 were tried.", "balance": "All is even.", "runs": 24, "cpu_s": 120}}
+    (folder / "multiverse" / "made.json").write_text(json.dumps(made))
+
+
+def test_the_multiverse_says_what_its_joint_test_says(script, tmp_path):
+    universe = script("universe")
+    assert universe.section(tmp_path) == ["## The multiverse", "This is not known yet: multiverse has not been made "
+                                          "under today's rules."]
+    other = "NCR, same"
+    joint(tmp_path, ("thirst", "NCR", 0.8, 10, 6, 0, 0.01, "robust", "lower", "", ""),
+          ("thirst", f'"{other}"', 0.7, 9, 5, 0, 0.02, "robust", "lower", "", ""),
+          ("hunger", "NCR", -0.9, 0, 0, 7, 0.0001, "robust", "higher", "", ""),
+          ("safety", "NCR", 0.3, 6, 3, 1, 0.3, "hangs on a factor", "lower", "crash + x; need_k",
+           "contact: 5 of 5; distance: 1 of 5"),
+          ("path", "NCR", 0.2, 7, 1, 0, 0.04, "mixed", "lower", "", ""),
+          *(("meals", whom, 0.0, 5, 0, 0, 0.9, "noise", "lower", "", "") for whom in ("NCR", f'"{other}"')))
+    _, what, pilots, counts, listed, _, *tables = universe.section(tmp_path)
+    assert "10 readings of what" in what and "180 runs. They took 10 processor minutes (0.50 million cycles" in what
+    assert "the 24 pilots 2, the page 1.5" in what and "corrected for all 7 comparisons" in what
+    assert pilots.startswith("12 were tried. All is even.")
+    assert counts == ("7 comparisons of 5 measures: robust 3, hangs on a factor 1, mixed 1, noise 2. What they hang on "
+                      "first: crash 1.")
+    robust, hangs, mixed, noise = listed.splitlines()
+    assert "; 3): higher hunger [C2] than NCR in 10 of 10 (d -0.90), the opposite; lower thirst [C0] than NCR in 10 " \
+           "of 10 (d +0.80) and than NCR, same in 9 of 10 (d +0.70), as claimed." in robust
+    assert hangs == "- **hang on crash** (1): safety [C3] against NCR (as claimed with contact in 5 of 5, distance " \
+                    "in 1 of 5)."
+    assert mixed.endswith("; 1): path against NCR.") and noise.endswith("; 2): meals.")
+    assert tables[0] == "**CR less NCR**" and tables[2] == f"**CR less {other}**" and len(tables) == 4
+    assert "| hunger [C2], claimed lower | robust, the opposite | 0 of 10 | 0 % | 70 % | -0.90 | <0.001 |" in tables[1]
+    assert "| hangs on crash, need_k | 6 of 10 | 30 % | 10 % | +0.30 | 0.3 |" in tables[1]
+    (tmp_path / "multiverse" / "made.json").write_text(json.dumps({"claims_sha256": "0" * 64}))
+    assert universe.section(tmp_path)[1].startswith("This is not known yet")
+
+
+def test_what_the_pilots_decided_goes_into_what_it_was_made_with(script, tmp_path):
+    universe = script("universe")
+    study = tmp_path / "mine"
+    assert universe.pilots(study, load) == {}
+    tried = [Tried(f"r{i}", {"a": "x"}, 95.0 - 10 * i, 1, 1, "survives 85.00 %" * i, not i) for i in (0, 1)]
+    write_decided(study, Decided("mark", "plain survives more than 90 %", 4, tried, {}, ("a", "a", 0.0), 0.5))
+    write_study(tmp_path / "mine_pilots", seeds=2)
+    found = universe.pilots(study, load)["pilots"]
+    assert found["readings"].startswith("2 of 4 readings were tried") and "too little: 1" in found["readings"]
+    assert found["runs"] == 4 and found["balance"].startswith("Levels of two factors meet")
 
 
 @pytest.mark.long

@@ -15,6 +15,7 @@ from attnlab.report import kept, readings, told
 from attnlab.report.contrasts import Contrast, contrasts, in_words
 from attnlab.report.multiverse import Multiverse, curves_of
 from attnlab.report.page import page
+from attnlab.tables.readings import Decided, Tried, write_decided
 
 HOSTILE = "</script><img src=x onerror=\"document.title='owned'\">"
 PROBE = """<!doctype html><meta charset="utf-8"><iframe id=page src="%s" style="width:390px;height:900px">
@@ -27,12 +28,12 @@ document.getElementById('page').onload = function () {
     pick: page.querySelector('.pick').hidden, wide: page.documentElement.scrollWidth});
 };</script>"""
 CLAIMS = load_claims("dinocera2014")
-COLUMNS = "reading,crash,need_k,sound,reason,survival,meals,kept\n"
-READINGS = COLUMNS + """r0,contact,1,true,,0.97,3.2,true
-r1,distance,2,true,,0.95,2.0,true
-r2,contact,2,false,NCR survives 81 % at first,0.81,1.0,false
-r3,distance,<b>1</b>,true,,0.99,4.0,false
-"""
+DECIDED = Decided("mark", "plain survives more than 90 %", 9, [
+    Tried("r0", {"crash": "contact", "need_k": "1"}, 97.0, 3, 2, taken=True),
+    Tried("r1", {"crash": "distance", "need_k": "2"}, 95.0, 2, 2, taken=True),
+    Tried("r2", {"crash": "contact", "need_k": "2"}, 81.0, 1, 0, "survives 81.00 %; nobody drinks"),
+    Tried("r3", {"crash": "contact", "need_k": "2"}, 82.0, 1, 1, "survives 82.00 %"),
+    Tried("r4", {"crash": "distance", "need_k": "<b>1</b>"}, 99.0, 4, 4)], {}, ("need_k", "crash", 1.0), 0.5)
 
 
 def planted(name: str = "crash") -> Multiverse:
@@ -55,7 +56,7 @@ def built(tmp_path_factory):
     """(the page's HTML, its folder) of a multiverse with a hostile factor and a file of readings."""
     from attnlab.figures.style import drawing
     study = tmp_path_factory.mktemp("multiverse")
-    (study / "readings.csv").write_text(READINGS)
+    write_decided(study, DECIDED)
     (study / "figures").mkdir()
     with drawing():
         over = readings.of(planted(HOSTILE), study, study)
@@ -109,20 +110,19 @@ def test_in_a_browser(built, browser):
 
 def test_casualties_and_balance(tmp_path):
     assert kept.section(tmp_path) == (None, "")
-    (tmp_path / "readings.csv").write_text(READINGS)
+    write_decided(tmp_path, DECIDED)
     section, note = kept.section(tmp_path)
-    assert not note and "4 readings were tried" in section.html
-    assert "1 are not sound, 2 were kept, 1 sound ones were not needed" in section.html
-    assert "NCR survives 81 % at first: 1." in section.html and "crash=contact" in section.html
+    assert not note and "5 of 9 readings were tried" in section.html
+    assert "2 are not (survives too little: 2, nobody drinks: 1; some for two reasons); 2 make the study. 1 sound " \
+           "ones were not needed." in section.html
+    assert "survives 82.00 %" in section.html and "crash=contact" in section.html and "V = 1.00" in section.html
 
 
-@pytest.mark.parametrize(("text", "words"), [
-    ("", "has no rows"), (COLUMNS, "has no rows"), ("reading,kept\nr0,true\n", "has no column sound"),
-    (b"\xff\xfe\x00", "cannot be read")])
-def test_a_file_of_readings_that_says_nothing_is_named(tmp_path, text, words):
-    (tmp_path / "readings.csv").write_bytes(text if isinstance(text, bytes) else text.encode())
+@pytest.mark.parametrize("text", ["", "{}", '{"tried": 3}', "\udcff"])
+def test_a_decision_that_cannot_be_read_is_named(tmp_path, text):
+    (tmp_path / "readings.json").write_bytes(text.encode(errors="surrogateescape"))
     section, note = kept.section(tmp_path)
-    assert section is None and words in note
+    assert section is None and note.startswith("readings.json cannot be read")
 
 
 def test_every_signed_comparison_against_every_control():
