@@ -34,6 +34,7 @@ class Point(NamedTuple):
     marker: str
     cost: list[float]
     outcomes: dict[str, list[float]]
+    gid: str
 
 
 @register("figure", "attention_economics")
@@ -54,12 +55,13 @@ class Economics(Figure):
                 if not np.isfinite(y).any():
                     continue
                 cx, cy = bootstrap_interval(point.cost), bootstrap_interval(y)
-                ax.plot(point.cost, y, ls="", marker=point.marker, ms=3, alpha=0.35, mew=0, color=point.colour)
+                ax.plot(point.cost, y, ls="", marker=point.marker, ms=3, alpha=0.35, mew=0, color=point.colour,
+                        gid=point.gid)
                 if np.isfinite(cx.low) and np.isfinite(cy.low):
-                    ax.plot([cx.low, cx.high], [cy.value] * 2, color=point.colour, lw=1.2)
-                    ax.plot([cx.value] * 2, [cy.low, cy.high], color=point.colour, lw=1.2)
+                    ax.plot([cx.low, cx.high], [cy.value] * 2, color=point.colour, lw=1.2, gid=point.gid)
+                    ax.plot([cx.value] * 2, [cy.low, cy.high], color=point.colour, lw=1.2, gid=point.gid)
                 ax.plot(cx.value, cy.value, ls="", marker=point.marker, ms=8, color=point.colour, mec="white", mew=0.8,
-                        label=point.name)
+                        label=point.name, gid=point.gid)
             ax.set_ylabel(label)
             ax.margins(0.08)
             if not ax.lines:
@@ -117,7 +119,8 @@ def _point(line: Line, name: str, colour: str, marker: str, needs: list[str]) ->
                                        ("need", "need", 1.0)):
             of_seed = Measure.means(episodes, column)
             outcomes[outcome] = [scale * of_seed.get(seed, float("nan")) for seed in sorted(acts)]
-        return Point(name, colour, marker, [100 * acts[s] / cycles[s] for s in sorted(acts)], outcomes)
+        return Point(name, colour, marker, [100 * acts[s] / cycles[s] for s in sorted(acts)], outcomes,
+                     line.gid)
     return None
 
 

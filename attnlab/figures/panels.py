@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from attnlab.figures.style import WIDTH_IN, colours, cut, dashes
+from attnlab.figures.values import gid_of
 from attnlab.measures.frames import of_seeds, phase_rows, split
 from attnlab.measures.once import once_a_study
 from attnlab.stats import bootstrap_band
@@ -30,6 +31,11 @@ class Line:
     runs: Runs
     colour: str
     dash: object
+
+    @property
+    def gid(self) -> str:
+        """What its artists are marked with (``gid=line.gid``), so that the page can hide them."""
+        return gid_of(self.name)
 
 
 @dataclass
@@ -117,9 +123,10 @@ def legend(figure: Figure, axes: list[Axes], title: str = "") -> None:
 def band(ax: Axes, x: np.ndarray, values: np.ndarray, line: Line, label: bool = True, **style: Any) -> None:
     """Mean line and 95 % band over seeds of ``values`` (seeds, x)."""
     centre, low, high = bootstrap_band(values)
-    ax.plot(x, centre, color=line.colour, ls=line.dash, label=line.name if label else None, **style)
+    ax.plot(x, centre, color=line.colour, ls=line.dash, label=line.name if label else None, gid=line.gid,
+            **style)
     if np.isfinite(low).any():
-        ax.fill_between(x, low, high, color=line.colour, alpha=0.18, lw=0)
+        ax.fill_between(x, low, high, color=line.colour, alpha=0.18, lw=0, gid=line.gid)
 
 
 @once_a_study

@@ -122,11 +122,12 @@ def _coverage(ax: Axes, lines: list[tuple[str, Line]], footprint: bool) -> None:
             values = list(measure.of(line.runs).values())
         except CannotMeasure:
             continue
-        ax.plot(values, [place] * len(values), "o", ms=3.5, alpha=0.45, mew=0, color=line.colour)
+        ax.plot(values, [place] * len(values), "o", ms=3.5, alpha=0.45, mew=0, color=line.colour, gid=line.gid)
         mean, low, high = mean_interval(values)
         if np.isfinite(low):
-            ax.plot([low, high], [place, place], color=line.colour, lw=3, solid_capstyle="butt", alpha=0.6)
-        ax.plot(mean, place, "D", ms=6, color=line.colour)
+            ax.plot([low, high], [place, place], color=line.colour, lw=3, solid_capstyle="butt", alpha=0.6,
+                    gid=line.gid)
+        ax.plot(mean, place, "D", ms=6, color=line.colour, gid=line.gid)
         ax.annotate(f"{mean:.1f} %", (mean, place), xytext=(0, 9), textcoords="offset points", ha="center",
                     fontsize=8.5)
     ax.set_yticks(range(len(lines)), [cut(title, 26) for title, _ in reversed(lines)])

@@ -75,10 +75,10 @@ def _lines(ax: Axes, panel: Panel, name: str | None, block: int) -> np.ndarray:
         found += [extrinsic.ravel(), (extrinsic + series["penalty"]).ravel()]
         if series["penalty"].any():
             ax.plot(x, np.nanmean(extrinsic, axis=0), color=line.colour, lw=0.8, alpha=0.75,
-                    label=f"{line.name}, no penalties")
+                    label=f"{line.name}, no penalties", gid=line.gid)
         if not np.allclose(extrinsic, paid, equal_nan=True):
             ax.plot(x, np.nanmean(paid + series["penalty"], axis=0), color=line.colour, lw=1.1, ls=":",
-                    label=f"{line.name}, eq 4")
+                    label=f"{line.name}, eq 4", gid=line.gid)
     return np.concatenate(found) if found else np.zeros(0)
 
 

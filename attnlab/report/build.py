@@ -15,7 +15,7 @@ from attnlab.claims.roles import Combinations, strata
 from attnlab.errors import ConfigError
 from attnlab.figures.base import FigureContext, gallery
 from attnlab.figures.style import drawing
-from attnlab.report import drawn, forest, glance, multiverse, provenance, readings, table5, verdicts
+from attnlab.report import drawn, forest, glance, multiverse, provenance, readings, table5, toggles, verdicts
 from attnlab.report.captions import load_captions
 from attnlab.report.curve_tables import combinations_csv
 from attnlab.report.hands import side_by_side
@@ -73,19 +73,22 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
         first = told or next(iter(judged.values()), [])
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # as figures are drawn
+            hiding = toggles.of_study(conditions)
             tables = _tables(claims, conditions, combinations, target)
-            sections = _sections(study, judged, combinations, telling, tables, target, many)
+            sections = _sections(study, judged, combinations, telling, tables, target, many, hiding)
             over = readings.of(multiverse.analyse(claims, conditions, combinations, judged, measured), study.path,
-                               target) if many else readings.Page(forest.first_screen(study))
+                               target) if many else readings.Page(
+                                   forest.first_screen(study, hiding.marks))
         shown = [drawer.shown(name, of, told) for name, of in zip(wanted, figures.answers(done), strict=True) if of]
-    sections.append(provenance.commands(study))
+    sections.append(provenance.commands(study, sorted(file.name for file in target.glob("*.csv"))))
     notes = [*provenance.notes(study, conditions, claims), *over.notes]
     if not conditions.strata:
         notes.insert(0, "there is no complete run in this study, so there is nothing to draw or to judge")
     notes += [f"the figure '{figure.title}' is not drawn: {figure.failed}" for figure in shown if figure.failed]
     text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first,
                 telling if telling is not None and len(judged) > 1 else "", shown,
-                sections, provenance.block(study, conditions, claims), over.first_screen, over.sections, over.script)
+                sections, provenance.block(study, conditions, claims), over.first_screen, over.sections, over.script,
+                hiding.html())
     write_bytes(target / "index.html", text.encode())
     if not quiet:
         _print(notes, next((rows for name, rows in tables if name == telling), None), first, telling, target)
@@ -118,14 +121,15 @@ def _telling(judged: dict[str, list[Verdict]]) -> str | None:
 
 
 def _sections(study: Study, judged: dict[str, list[Verdict]], combinations: Combinations, telling: str | None,
-              tables: list[tuple[str, list[table5.Row]]], target: Path, many: bool) -> list[Section]:
+              tables: list[tuple[str, list[table5.Row]]], target: Path, many: bool, hiding: toggles.Toggles
+              ) -> list[Section]:
     """Conditions, Table 5 and claims, in the page and as CSV; what a study of other things cannot say is left out of
     the page, and of ``many`` readings the tables of single ones."""
     write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
     write_bytes(target / "seeds.csv", verdicts.seeds_csv(judged))
     sections = []
     if judged:
-        section, csv = glance.section(study)
+        section, csv = glance.section(study, hiding.marks)
         write_bytes(target / "conditions.csv", csv)
         sections.append(section)
     if tables and telling is not None and not many:

@@ -10,11 +10,12 @@ from typing import Any
 
 from attnlab.claims.judge import Verdict
 from attnlab.errors import describe
+from attnlab.figures import values
 from attnlab.figures.base import FigureContext, make
 from attnlab.figures.style import png_bytes, svg_bytes
 from attnlab.registry import parts
 from attnlab.report.hands import Hands
-from attnlab.report.page import Shown
+from attnlab.report.plates import Shown
 from attnlab.results.conditions import Conditions
 from attnlab.tables.files import write_bytes
 
@@ -41,8 +42,9 @@ class Gallery:
                 if not figure.applies(self.conditions):
                     return None
                 said = figure.say(self.conditions)
-                save(figure.draw(self.conditions), figure.key, self.target)
-                return Shown(figure.key, figure.heading, self.captions.get(name, ""), said, how=figure.how)
+                lines = save(figure.draw(self.conditions), figure.key, self.target)
+                return Shown(figure.key, figure.heading, self.captions.get(name, ""), said, values=lines,
+                             how=figure.how)
             except Exception as cause:  # noqa: BLE001  a figure of anybody's: it is named, and the page goes on
                 return self.failed(name, describe(cause))
 
@@ -59,7 +61,8 @@ class Gallery:
         try:
             figure = make(name, self.context)
             drawn.claims = [v.id for v in judged if figure.shows(v.claim.where, [p.part.measure_name for p in v.parts])]
-            drawn.png = (self.target / "figures" / f"{drawn.key}.png").read_bytes()
+            drawn.png, drawn.svg = ((self.target / "figures" / f"{drawn.key}.{kind}").read_bytes()
+                                    for kind in ("png", "svg"))
         except Exception as cause:  # noqa: BLE001  as above
             return self.failed(name, describe(cause))
         return drawn
@@ -70,16 +73,19 @@ def _short(file: str) -> str:
     return str(path.relative_to(here)) if path.is_relative_to(here) else file
 
 
-def save(drawn: Any, key: str, target: Path) -> bytes:
-    """Write a figure as PNG and SVG, close it, return the PNG."""
+def save(drawn: Any, key: str, target: Path) -> str:
+    """Write a figure as PNG and SVG and the values of its lines as CSV, close it; the values as JSON, none: empty."""
     import matplotlib.figure
     import matplotlib.pyplot as plt
     if not isinstance(drawn, matplotlib.figure.Figure):
         raise TypeError(f"draw() gave {drawn!r}, not a matplotlib figure")
     png = png_bytes(drawn)
     drawn.set_layout_engine("none")  # everything has its place now; laying it out again would take as long as drawing
+    found = values.plots(drawn)
     svg = svg_bytes(drawn)
     plt.close(drawn)
     write_bytes(target / "figures" / f"{key}.png", png)
     write_bytes(target / "figures" / f"{key}.svg", svg)
-    return png
+    if found:
+        write_bytes(target / "figures" / f"{key}.csv", values.as_csv(found))
+    return values.as_json(found)

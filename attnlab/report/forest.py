@@ -40,15 +40,16 @@ def rows_of(study: Study) -> list[Row]:
     return sorted(rows, key=lambda row: -row.value[0])
 
 
-def first_screen(study: Study) -> str:
-    """HTML: sentences, then the plot. Empty if there is nothing to show."""
+def first_screen(study: Study, marks: Mapping[str, str] | None = None) -> str:
+    """HTML: sentences, then the plot. Empty if there is nothing to show. ``marks``: of conditions, by which rows are
+    hidden."""
     rows = rows_of(study)
     if not rows:
         return ""
     more = f" The first {MOST} of {len(rows)}; all are in conditions.csv." if len(rows) > MOST else ""
     return ('<h2 id="found">What was found</h2>\n' + "".join(f"<p>{escape(text)}</p>" for text in sentences(rows))
-            + _plot(rows[:MOST]) + "<p class=small>Cycles lived of those there could be, in validation episodes: mean "
-            f"over seeds with its 95 % t interval, best first; small dots are seeds.{more}</p>")
+            + _plot(rows[:MOST], marks or {}) + "<p class=small>Cycles lived of those there could be, in validation "
+            f"episodes: mean over seeds with its 95 % t interval, best first; small dots are seeds.{more}</p>")
 
 
 def sentences(rows: Sequence[Row]) -> list[str]:
@@ -82,7 +83,7 @@ def _told(value: Interval, signed: bool = False) -> str:
     return f"{mean:{form}}{unit} [{low:{form}}, {high:{form}}]"
 
 
-def _plot(rows: Sequence[Row]) -> str:
+def _plot(rows: Sequence[Row], marks: Mapping[str, str]) -> str:
     """An inline picture of the rows: HTML names beside SVG lines, so that both follow the page's width and colours."""
     every = [v for row in rows for v in (*row.value, *row.seeds.values()) if not np.isnan(v)]
     low, high = max(0.0, min(every)), min(100.0, max(every))
@@ -91,12 +92,16 @@ def _plot(rows: Sequence[Row]) -> str:
 
     def x(value: float) -> float:
         return round(LEFT_PX + (min(high, max(low, value)) - low) / (high - low) * WIDTH_PX, 1)
-    body = "".join(f'<tr><th scope="row">{escape(row.name)}</th><td>{_line(row, x)}</td>'
+    body = "".join(f'<tr{_of(marks.get(row.name))}><th scope="row">{escape(row.name)}</th><td>{_line(row, x)}</td>'
                    f"<td class=n>{escape(_told(row.value))}</td></tr>" for row in rows)
     scale = f'<span>{low:.0f} %</span><span>{high:.0f} %</span>'
     return ('<div class="scroll" tabindex="0" role="region" aria-label="Survival of every condition">'
             '<table class=forest><thead><tr><th scope="col">condition</th><th scope="col"><span class=scale>' + scale
             + f'</span></th><th scope="col" class=n>mean [95 %]</th></tr></thead><tbody>{body}</tbody></table></div>')
+
+
+def _of(mark: str | None) -> str:
+    return f' data-of="{mark}"' if mark else ""
 
 
 def _line(row: Row, x: Callable[[float], float]) -> str:

@@ -1,35 +1,21 @@
-"""The page: one HTML file that needs no network, and no scripts. Everything that a user named is escaped."""
+"""The page: one HTML file that needs no network, and says all without a script. What a user named is escaped."""
 
 from __future__ import annotations
 
 import base64
 import hashlib
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
 from attnlab.claims.files import Claims
 from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Verdict
+from attnlab.report.plates import Shown, chip, plate
 
 PROVENANCE = ("<!-- provenance:begin -->", "<!-- provenance:end -->")  # all that may differ between two builds
-
-
-@dataclass
-class Shown:
-    """A figure on the page. ``paper``: what the paper shows there; ``found``: what was found here; ``png``: its bytes;
-    ``claims``: ids whose place in the paper it shows; ``how``: how to read it; ``failed``: why it could not be drawn.
-    """
-    key: str
-    title: str
-    paper: str
-    found: str = ""
-    png: bytes = b""
-    claims: list[str] = field(default_factory=list)
-    how: str = ""
-    failed: str = ""
 
 
 @dataclass
@@ -40,36 +26,33 @@ class Section:
     html: str
 
 
-def chip(verdict: Finding, text: str = "") -> str:
-    return f'<span class="chip {verdict.css}">{escape(text or verdict)}</span>'
-
-
 def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict], where: str,
          figures: Sequence[Shown], sections: Sequence[Section], provenance: str, found: str = "",
-         first: Sequence[Section] = (), script: str = "") -> str:
+         first: Sequence[Section] = (), script: str = "", shown: str = "") -> str:
     """The whole page. ``where``: the settings that the verdicts are for, if there are others; ``sections`` follow the
     figures; ``provenance`` is HTML, and so is ``found``, the first screen; sections in ``first`` follow that one.
-    ``script``: the only code that the page lets run."""
+    ``script`` is run after that of all pages (page.js), which together are the only code that the page lets run.
+    ``shown``: HTML, by which conditions are hidden."""
     style = (Path(__file__).parent / "style.css").read_text()
+    script = (Path(__file__).parent / "page.js").read_text() + script
     links = [*([("found", "What was found")] if found else []), *((s.key, s.title) for s in first),
              ("verdicts", "Verdicts"), *([("figures", "Figures")] if figures else []),
              *((s.key, s.title) for s in sections), ("provenance", "Provenance")]
     mark = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    code = f"; script-src 'sha256-{mark}'" if script else ""
     parts = [
         "<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; img-src data:; '
-        f'style-src \'unsafe-inline\'{code}">',
+        f"style-src 'unsafe-inline'; script-src 'sha256-{mark}'\">",
         '<link rel="icon" href="data:,">', f"<title>{escape(title)}</title>", f"<style>\n{style}</style>", "</head>",
         "<body>", "<main>", f"<h1>{escape(title)}</h1>", f'<p class="lead">{escape(lead)}</p>',
         _notes(notes), "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>",
-        found, *map(_section, first), headline(claims, verdicts, where),
+        shown, found, *map(_section, first), headline(claims, verdicts, where),
         '<h2 id="figures">Figures</h2>' if figures else "",
-        *(_figure(shown, {v.id: v for v in verdicts}) for shown in figures),
+        *(plate(figure, verdicts) for figure in figures),
         *map(_section, sections),
         PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1],
-        "</main>", f"<script>{script}</script>" if script else "", "</body>", "</html>"]
+        "</main>", f"<script>{script}</script>", "</body>", "</html>"]
     return "\n".join(part for part in parts if part) + "\n"
 
 
@@ -123,27 +106,14 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> st
             f'<div class="key small">{key}</div>\n<ul class="headline">{"".join(items)}</ul>')
 
 
-def _figure(shown: Shown, verdicts: Mapping[str, Verdict]) -> str:
-    if shown.failed:
-        return (f'<figure id="{escape(shown.key)}"><h3>{escape(shown.title)}</h3>'
-                f"<figcaption><p><b>Not drawn:</b> {escape(shown.failed)}</p></figcaption></figure>")
-    data = base64.b64encode(shown.png).decode()
-    mine = [verdicts[key] for key in shown.claims if key in verdicts]
-    chips = " ".join(f'<a href="#claim-{escape(v.id)}">{chip(v.verdict, f"{v.id} {v.verdict}")}</a>' for v in mine)
-    told = f"<p>{chips}</p>" if chips else ""
-    paper = f"<b>The paper:</b> {escape(shown.paper)}" if shown.paper else ""
-    about = " ".join(filter(None, [paper, escape(shown.how)]))
-    return (f'<figure id="{escape(shown.key)}"><h3>{escape(shown.title)}</h3>'
-            f'<img alt="{escape(shown.title)}. {escape(shown.found)}" src="data:image/png;base64,{data}">'
-            f"<figcaption>{f'<p>{about}</p>' if about else ''}<p><b>Here:</b> {escape(shown.found)}</p>{told}"
-            "</figcaption></figure>")
-
-
-def table(heads: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = ()) -> str:
-    """A table of texts, escaped; columns in ``numbers`` are aligned to the right."""
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = (),
+          of: Sequence[str] = ()) -> str:
+    """A table of texts, escaped; columns in ``numbers`` are aligned to the right. ``of``: what condition each row is of
+    (see :mod:`attnlab.report.toggles`)."""
     def cells(row: Sequence[str], tag: str) -> str:
         return "".join(f'<{of}{" class=n" if i in numbers else ""}>{escape(str(c))}</{of}>'
                        for i, c in enumerate(row) for of in (tag if str(c) else "td",))
-    body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
+    marks = [f' data-of="{escape(key)}"' if key else "" for key in of] or [""] * len(rows)
+    body = "".join(f"<tr{mark}>{cells(row, 'td')}</tr>" for mark, row in zip(marks, rows, strict=True))
     return ('<div class="scroll" tabindex="0" role="group" aria-label="table"><table><thead><tr>'
             f'{cells(heads, "th")}</tr></thead><tbody>{body}</tbody></table></div>')

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from html import escape
 from typing import Any
@@ -89,13 +89,15 @@ def _uneven(conditions: Conditions) -> list[str]:
     return found[:12]
 
 
-def commands(study: Study) -> Section:
-    """What to type to make runs and page again: the commands that asked for them."""
+def commands(study: Study, files: Sequence[str]) -> Section:
+    """What to type to make runs and page again: the commands that asked for them. ``files``: tables beside the page."""
     lines = list(dict.fromkeys(" ".join(["python -m attnlab", *map(shlex.quote, command["typed"])])
                                for command in study.file.commands)) or _from_runs(study)
     lines.append(f"python -m attnlab.report outputs/{shlex.quote(study.name)}")
+    links = " ".join(f'<a href="{escape(name)}">{escape(name)}</a>' for name in files)
     return Section("again", "Make it again", f"<pre>{escape(chr(10).join(lines))}</pre>"
-                   "<p class=small>Runs that are complete already are not run again.</p>")
+                   "<p class=small>Runs that are complete already are not run again.</p>"
+                   f"<p class=files>All numbers of this page: {links}</p>")
 
 
 def _from_runs(study: Study) -> list[str]:

@@ -11,7 +11,8 @@ from html import escape
 from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Verdict
 from attnlab.claims.parts import PAIRED
-from attnlab.report.page import Section, chip
+from attnlab.report.page import Section
+from attnlab.report.plates import chip
 
 
 def _n(value: float, form: str = ".3g") -> str:
