@@ -28,6 +28,14 @@ class ValidationSettings:
 
 
 @dataclass
+class TuneSettings:
+    goal: Any = setting(None, "look for what makes this measure best, by Optuna: its name, or {name: survival, phase: "
+                        "train}; what is swept is then what may be chosen")
+    trials: int = setting(30, "choices that are tried, each with all seeds", low=1, high=10_000)
+    minimise: bool = setting(False, "the least is best")
+
+
+@dataclass
 class RunSettings:
     """Everything at the top of a config. Groups are mappings with the ``name`` of the chosen part. A cosmetic setting
     changes no number: it is in no run's key, sets no conditions apart, and cannot be swept."""
@@ -50,6 +58,7 @@ class RunSettings:
                                cosmetic=True)
     variants: Any = setting(None, "settings that are swept together: {name: {setting: value, ...}, ...}, or "
                             "{design: multiverse, size: 64, seed: 0}", cosmetic=True)
+    tune: TuneSettings = setting(TuneSettings(), "a search among the values that are swept", cosmetic=True)
     labels: dict[str, Any] = setting({}, "names of conditions in tables and figures, e.g. {litman: CR, none: NCR}",
                                      cosmetic=True)
     start_from: str | None = setting(None, "folder of a complete run whose robot goes on here, with all it has learned",

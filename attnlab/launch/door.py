@@ -14,7 +14,7 @@ from typing import Any
 
 from hydra.core.object_type import ObjectType
 from hydra.core.override_parser.overrides_parser import OverridesParser
-from hydra.core.override_parser.types import Override, QuotedString, RangeSweep
+from hydra.core.override_parser.types import IntervalSweep, Override, QuotedString, RangeSweep
 from hydra.errors import HydraException
 
 from attnlab import registry
@@ -169,8 +169,11 @@ def _values(override: Override) -> list[Any]:
     if not override.is_sweep_override():
         return [override.value()]
     key = override.key_or_group
-    if not override.is_discrete_sweep():
-        raise ConfigError(key, "interval(...) cannot be swept over all its values", "List them: a,b,c")
+    if not override.is_discrete_sweep():  # for a search; the sweeper refuses it where all values are to be run
+        if key in GROUPS:
+            raise ConfigError(key, "interval(...) has numbers, and a part has a name", "List them: a,b,c")
+        sweep = override.value()
+        return [sweep.start, sweep.end] if isinstance(sweep, IntervalSweep) else []
     _check_range(override)
     try:
         values = list(islice(override.sweep_iterator(), MOST_CHECKED))

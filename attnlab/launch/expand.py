@@ -48,6 +48,28 @@ class Expansion:
         check_different(jobs)
         return jobs
 
+    # for a search, which chooses one value of each sweep
+
+    def sweeps(self) -> dict[str, Override]:
+        """What is swept but seeds, by setting."""
+        return {name_of(o): o for key, o in self.merged.items() if key != "seed" and o.is_sweep_override()}
+
+    def key(self, setting: str) -> str:
+        """A swept setting as it is typed: ``+generation`` of ``generation``."""
+        return str(self.sweeps()[setting].get_key_element())
+
+    def base(self) -> dict[str, Any]:
+        """The config with everything at its default that is swept."""
+        return self.composer.config([choices(o)[0] for key, o in self.merged.items()
+                                     if key != "seed" and not o.is_sweep_override()])
+
+    def trial(self, point: Mapping[str, str]) -> list[Job]:
+        """The jobs of one choice, checked; ``point``: the text of each swept setting. Raises ConfigError."""
+        overrides = [f"{o.get_key_element()}={point[name_of(o)]}" if name_of(o) in point else choices(o)[0]
+                     for key, o in self.merged.items() if key != "seed"]
+        values = {name: _value(overrides, name) for name in point}
+        return list(_of_condition(pinned(self.composer.config(overrides)), overrides, values, list(values), self.seeds))
+
 
 def _of_condition(config: dict[str, Any], overrides: list[str], values: dict[str, Any], named: list[str],
                   seeds: Sequence[int] | None) -> Iterator[Job]:

@@ -20,7 +20,7 @@ from hydra.plugins.sweeper import Sweeper
 from hydra.types import HydraContext, TaskFunction
 from omegaconf import DictConfig, OmegaConf
 
-from attnlab.config import COSMETIC
+from attnlab.config import COSMETIC, TuneSettings
 from attnlab.errors import ConfigError
 from attnlab.groups import GROUPS
 from attnlab.launch.compose import Composer
@@ -31,6 +31,7 @@ from attnlab.launch.pilots import UndecidedError, sound
 from attnlab.launch.place import check_place
 from attnlab.launch.variants import read_design, read_variants
 from attnlab.loading import config_folders
+from attnlab.settings import build
 from attnlab.tables.ranges import RANGED, seeds
 
 NAMESPACE = "hydra_plugins.attnlab"
@@ -52,6 +53,15 @@ class StudySweeper(Sweeper):
 
     def sweep(self, arguments: list[str]) -> None:
         from attnlab.launch.drive import drive
+        wanted = build(TuneSettings, OmegaConf.to_container(self.master.tune), "tune")
+        if wanted.goal is not None:
+            from attnlab.launch.trials import Tuning
+            tuning = Tuning(self._expansion(arguments), wanted, arguments)
+            if self.master.variants is not None:
+                raise ConfigError("variants", "are compared, and a search chooses", "Sweep the settings themselves")
+            type(self).folder = tuning.folder
+            type(self).exit_code = tuning.run()
+            return
         try:
             jobs = self.jobs(arguments)
         except UndecidedError as cause:
@@ -64,20 +74,25 @@ class StudySweeper(Sweeper):
 
     def jobs(self, arguments: Sequence[str]) -> list[Job]:
         """All jobs of the sweep, checked."""
-        composer, door = Composer(self.loader, self.master), Door(self.loader)
-        merged = self._merged(door, arguments)
-        expansion = Expansion(composer, door, merged)
-        for name in sorted(name for name in expansion.swept if name.partition(".")[0] in COSMETIC):
-            raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
-        _check_size(merged.values())
+        expansion = self._expansion(arguments)
+        _check_size(expansion.merged.values())
         node = self.master.variants
         node = OmegaConf.to_container(node) if OmegaConf.is_config(node) else node
-        _check_added(composer, [of[0] for of in map(choices, merged.values())])
         design = read_design(node)
         jobs = expansion.jobs(read_variants(node) if design is None or design.pilot is None else
                               design.variants(sound(design, expansion, arguments)))
         check_once(jobs)
         return jobs
+
+    def _expansion(self, arguments: Sequence[str]) -> Expansion:
+        """What is asked for, as jobs can be made of it."""
+        composer, door = Composer(self.loader, self.master), Door(self.loader)
+        expansion = Expansion(composer, door, self._merged(door, arguments))
+        for name in sorted(name for name in expansion.swept if name.partition(".")[0] in COSMETIC):
+            raise ConfigError(name, "cannot be swept: all runs of a command go to one study", f"{name}=...")
+        _check_added(composer, [choices(o)[0] for o in expansion.merged.values()
+                                if not o.is_sweep_override() or o.is_discrete_sweep()])
+        return expansion
 
     def _merged(self, door: Door, arguments: Sequence[str]) -> dict[str, Override]:
         """Overrides by setting: what the experiment file sweeps, replaced by what is typed."""
@@ -112,7 +127,8 @@ def _check_size(overrides: Iterable[Override]) -> None:
             count *= max(1, sum(1 for _ in override.sweep_string_iterator()))
         elif override.is_sweep_override():
             raise ConfigError(override.get_key_element(), "interval(...) cannot be swept over all its values",
-                              "List them: a,b,c")
+                              "List them: a,b,c; or look for the best: "
+                              "tune.goal=survival")
     if count > MOST_RUNS:
         raise ConfigError("-m", f"this sweep has {count:,} runs, more than {MOST_RUNS:,}")
 

@@ -31,36 +31,44 @@ def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: 
          first: Sequence[Section] = (), script: str = "", shown: str = "") -> str:
     """The whole page. ``where``: the settings that the verdicts are for, if there are others; ``sections`` follow the
     figures; ``provenance`` is HTML, and so is ``found``, the first screen; sections in ``first`` follow that one.
-    ``script`` is run after that of all pages (page.js), which together are the only code that the page lets run.
-    ``shown``: HTML, by which conditions are hidden."""
-    style = (Path(__file__).parent / "style.css").read_text()
-    script = (Path(__file__).parent / "page.js").read_text() + script
+    ``script``: of this page alone; ``shown``: HTML, by which conditions are hidden."""
     links = [*([("found", "What was found")] if found else []), *((s.key, s.title) for s in first),
              ("verdicts", "Verdicts"), *([("figures", "Figures")] if figures else []),
              *((s.key, s.title) for s in sections), ("provenance", "Provenance")]
-    mark = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     parts = [
+        f'<p class="lead">{escape(lead)}</p>', notes_block(notes),
+        "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>",
+        shown, found, *map(_section, first), headline(claims, verdicts, where),
+        '<h2 id="figures">Figures</h2>' if figures else "",
+        *(plate(figure, verdicts) for figure in figures),
+        *map(_section, sections),
+        PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1]]
+    return document(title, parts, script)
+
+
+def document(title: str, parts: Sequence[str], script: str = "", style: str = "") -> str:
+    """A page that asks for nothing from elsewhere. ``parts``: HTML of its body; ``script`` is run after that of all
+    pages (page.js), which together are the only code it lets run; ``style``: more of it than all pages have."""
+    script = (Path(__file__).parent / "page.js").read_text() + script
+    style = (Path(__file__).parent / "style.css").read_text() + style
+    mark = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    whole = [
         "<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; img-src data:; '
         f"style-src 'unsafe-inline'; script-src 'sha256-{mark}'\">",
         '<link rel="icon" href="data:,">', f"<title>{escape(title)}</title>", f"<style>\n{style}</style>", "</head>",
-        "<body>", "<main>", f"<h1>{escape(title)}</h1>", f'<p class="lead">{escape(lead)}</p>',
-        _notes(notes), "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>",
-        shown, found, *map(_section, first), headline(claims, verdicts, where),
-        '<h2 id="figures">Figures</h2>' if figures else "",
-        *(plate(figure, verdicts) for figure in figures),
-        *map(_section, sections),
-        PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1],
+        "<body>", "<main>", f"<h1>{escape(title)}</h1>", *parts,
         "</main>", f"<script>{script}</script>", "</body>", "</html>"]
-    return "\n".join(part for part in parts if part) + "\n"
+    return "\n".join(part for part in whole if part) + "\n"
 
 
 def _section(section: Section) -> str:
     return f'<h2 id="{section.key}">{escape(section.title)}</h2>\n{section.html}'
 
 
-def _notes(notes: Sequence[str]) -> str:
+def notes_block(notes: Sequence[str]) -> str:
+    """What a reader must mind, first."""
     if not notes:
         return ""
     return '<div class="notes" role="note"><strong>Mind</strong><ul>' + \
