@@ -56,9 +56,10 @@ def axis(override: Override, holds: Any) -> Axis:
     """What a sweep may choose from. ``holds``: what the setting is by default; where that is a whole number, so is all
     of a range with whole ends. Raises ConfigError."""
     name, sweep = name_of(override), override.value()
+    ends: Any = (sweep.start, sweep.end) if isinstance(sweep, IntervalSweep) else None
     typed = str(override.input_line).partition("=")[2]
     if isinstance(sweep, IntervalSweep):
-        low, high, log = float(sweep.start), float(sweep.end), "log" in sweep.tags
+        low, high, log = float(ends[0]), float(ends[1]), "log" in sweep.tags
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
             raise ConfigError(name, f"{typed} is no range", "interval(LOW,HIGH), two numbers, the lower one first")
         if sweep.tags - {"log"}:
@@ -66,7 +67,7 @@ def axis(override: Override, holds: Any) -> Axis:
         if log and low <= 0:
             raise ConfigError(name, f"{typed} begins at {low:g}, and factors need more than 0",
                               "tag(log,interval(0.01,1))")
-        whole = isinstance(sweep.start, int) or (isinstance(holds, int) and not isinstance(holds, bool))
+        whole = isinstance(ends[0], int) or (isinstance(holds, int) and not isinstance(holds, bool))
         return Axis(name, (), low, high, None, whole and low.is_integer() and high.is_integer(), log)
     words = tuple(text.partition("=")[2] for text in choices(override))
     if isinstance(sweep, RangeSweep) and len(words) > 1:
