@@ -5,15 +5,34 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from attnlab.clusters.base import Cluster, Patience
 from attnlab.launch.jobs import Job
 from attnlab.launch.progress import Display
 from attnlab.launch.shared import LOOK_S, Shared
 from attnlab.registry import register
+from attnlab.robot.episodes import Progress
 from attnlab.robot.folder import ClaimLostError, run_to_folder
-from attnlab.tables.claim import beating
+from attnlab.tables.claim import Claim, beating
 from attnlab.tables.files import read_json
+
+
+def do(job: Job, claim: Claim, progress: Progress) -> dict[str, Any] | None:
+    """Do a run in this process and give its claim back: what its run.json says, None if the claim was lost."""
+    try:
+        with beating(claim) as far:
+            def told(episodes: int, cycles: int) -> None:
+                far[:] = episodes, cycles
+                progress(episodes, cycles)
+            run_to_folder(dict(job.config), job.folder, job.info, told, claim)
+        return read_json(job.folder / "run.json") or {}
+    except ClaimLostError:
+        return None
+    except OSError as cause:  # no room for the run, nor for the reason
+        return {"status": "failed", "error": f"{cause.filename or job.run}: {cause.strerror}"}
+    finally:
+        claim.release()
 
 
 @register("cluster", "serial")
@@ -33,20 +52,15 @@ class Serial(Cluster):
                 time.sleep(LOOK_S)
                 continue
             job, claim = found
-            try:
-                with beating(claim) as far:
-                    def progress(episodes: int, cycles: int, far: list[int] = far) -> None:
-                        display.advance(episodes - far[0], cycles - far[1])
-                        far[:] = episodes, cycles
-                        display.tick()
-                    run_to_folder(dict(job.config), job.folder, job.info, progress, claim)
-            except ClaimLostError:
+            done = [0, 0]
+
+            def progress(episodes: int, cycles: int, done: list[int] = done) -> None:
+                display.advance(episodes - done[0], cycles - done[1])
+                done[:] = episodes, cycles
+                display.tick()
+            about = do(job, claim, progress)
+            if about is None:
                 shared.elsewhere.append(job)
                 continue
-            except OSError as cause:  # no room for the run, nor for the reason
-                display.run_done(job, {"status": "failed", "error": f"{cause.filename or job.run}: {cause.strerror}"})
-                continue
-            finally:
-                claim.release()
-            display.advance(job.episodes - far[0], 0)
-            display.run_done(job, read_json(job.folder / "run.json") or {})
+            display.advance(job.episodes - done[0], 0)
+            display.run_done(job, about)

@@ -77,14 +77,14 @@ class Compiled:
 
     def _entries(self, agent: Any, exploration: Any, only_kept: bool) -> tuple[Episode, Died] | None:
         of = agent.layout["attentions"].of
-        text = f"{agent} {exploration} {of} {package_hash()} {_files([agent, exploration])}"
+        text = f"{agent} {exploration} {of} {package_hash()} {files_of([agent, exploration])}"
         try:
             return entries(hashlib.sha256(text.encode()).hexdigest()[:24], agent, exploration, of, only_kept)
         except Exception as cause:  # whatever numba makes of a part's code
             raise Uncompilable(reason(str(cause), self._memory.left_out)) from cause
 
 
-def _files(kinds: list[Any]) -> str:
+def files_of(kinds: list[Any]) -> str:
     """A hash of the files that plugins' classes stand in, for their code is in no package's hash."""
     files = sorted({file for kind in kinds for file in sources(kind)})
     return hashlib.sha256(b"".join(Path(file).read_bytes() for file in files)).hexdigest()[:16]

@@ -30,14 +30,20 @@ def at_address(_: Any, address: Any, key: Any) -> Any:
     return _roots[key.literal_value](types.int64, key), generate
 
 
+def root(key: str, kind: Any) -> str:
+    """Announce under a key what kind of object :func:`at_address` is to find; the key."""
+    _roots[key] = kind
+    return key
+
+
 def entries(key: str, agent: Reference, exploration: Any, attention: Any, only_kept: bool = False
             ) -> tuple[Episode, Died] | None:
     """The compiled functions of an agent of this kind, from the disk if they are there, otherwise None with
     ``only_kept``; ``key`` says of which code and kinds. Raises whatever numba does if a part does not compile."""
     if key in _entries:
         return _entries[key]
-    agent_key, exploration_key, attention_key = f"{key} agent", f"{key} exploration", f"{key} attention"
-    _roots.update({agent_key: agent, exploration_key: exploration, attention_key: attention})
+    agent_key, exploration_key = root(f"{key} agent", agent), root(f"{key} exploration", exploration)
+    attention_key = root(f"{key} attention", attention)
 
     def episode(agent_at: int, exploration_at: int, learning: bool, x: float, y: float, heading: float) -> int:
         agent = at_address(agent_at, agent_key)

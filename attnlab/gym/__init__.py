@@ -14,5 +14,6 @@ try:
 except ImportError:
     raise ConfigError("attnlab.gym", "gymnasium is not installed", "pip install 'attnlab[gym]'") from None
 
-gymnasium.register("attnlab/Attention-v0", "attnlab.gym.envs:AttentionEnv")
+gymnasium.register("attnlab/Attention-v0", "attnlab.gym.envs:AttentionEnv",
+                   vector_entry_point="attnlab.gym.vector:attention")
 gymnasium.register("attnlab/Survival-v0", "attnlab.gym.envs:SurvivalEnv")

@@ -35,10 +35,14 @@ def prepare(jobs: Sequence[Job]) -> None:
         job.engine = chosen[job.of.key]
 
 
+def composition(job: Job) -> dict[str, str | list[str]]:
+    """The parts of a run by group: runs of the same ones share what is compiled."""
+    nodes = {group: getattr(job.settings, group) for group in PARTS}
+    return {group: sorted(node) if group == "behaviours" else node["name"] for group, node in nodes.items()}
+
+
 def _parts(job: Job) -> str:
-    """The composition of a run: runs of one share what is compiled."""
-    return repr([sorted(node) if group == "behaviours" else node["name"]
-                 for group in PARTS for node in [getattr(job.settings, group)]])
+    return repr(composition(job))
 
 
 def _say(what: str, said: set[str]) -> None:

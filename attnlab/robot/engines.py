@@ -37,7 +37,7 @@ def choose(plan: RunPlan, cycles: int | None = None, announce: Callable[[], None
     total = cycles or plan.settings.max_cycles * (plan.settings.train_episodes + plan.settings.validation_episodes)
     if asked == "auto" and total < LOOKS_CYCLES:
         return Choice("python", f"it is short: {total:,} cycles at most")
-    why = _never(plan)
+    why = never(plan)
     if not why:
         try:
             from attnlab.compiled.engine import Uncompilable
@@ -115,7 +115,7 @@ def differs(plan: RunPlan) -> str:
     return ""
 
 
-def _never(plan: RunPlan) -> str:
+def never(plan: RunPlan) -> str:
     """Why a run cannot be compiled, as far as it shows before it is tried; empty if it may."""
     s = plan.settings
     for group in ("simulator", "needs", "fusion", "curiosity", "learner", "exploration"):

@@ -24,7 +24,7 @@ from attnlab.tables.claim import Claim
 from attnlab.tables.code import versions
 from attnlab.tables.files import mark_of, sweep_temporary, write_bytes, write_json, write_parquet
 from attnlab.tables.numbers import numbers_of
-from attnlab.tables.processes import birth
+from attnlab.tables.processes import birth, cpu_s
 from attnlab.tables.schema import SCHEMA_VERSION, TABLES
 
 LONGEST = 20_000  # characters of an error that are kept; a message may have megabytes
@@ -59,7 +59,7 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     write_bytes(folder / "config.yaml", OmegaConf.to_yaml(OmegaConf.create(dict(config))).encode())
     for name in (*(f"{table}.parquet" for table in TABLES), AGENT):
         (folder / name).unlink(missing_ok=True)
-    cpu, observers, keeping = time.process_time(), Observers(), None
+    cpu, observers, keeping = cpu_s(), Observers(), None
     interrupt = None
     try:
         with _here():
@@ -98,11 +98,11 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     observers.end(str(about["status"]))
     if observers.errors:
         about["callbacks"] = observers.errors
-    wall_s, cpu_s = time.perf_counter() - started, time.process_time() - cpu
+    wall, spent = time.perf_counter() - started, cpu_s() - cpu
     if keeping is not None:
         about.update(keeping.notes)
-        wall_s, cpu_s = wall_s + keeping.wall_s, cpu_s + keeping.cpu_s
-    about.update(wall_s=round(wall_s, 3), cpu_s=round(cpu_s, 3))
+        wall, spent = wall + keeping.wall_s, spent + keeping.cpu_s
+    about.update(wall_s=round(wall, 3), cpu_s=round(spent, 3))
     _check_held(claim)
     write_json(folder / "run.json", about)
     if keeping is not None and about["status"] == "complete":

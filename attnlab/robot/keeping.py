@@ -22,6 +22,7 @@ from attnlab.robot.restore import restore
 from attnlab.robot.state import UnkeptError, written
 from attnlab.tables.code import package_hash
 from attnlab.tables.files import write_bytes
+from attnlab.tables.processes import cpu_s
 
 CHECKPOINT, FORMAT = "checkpoint.json", "attnlab checkpoint 1"
 Explorations = Mapping[str, Exploration]  # by phase
@@ -46,7 +47,7 @@ class Keeping:
         self._tried = False
         if plan.settings.callback and self.minutes is not None:
             self._never("those who watch a run (callback) see it from its beginning or not at all")
-        self._clocks = time.monotonic(), time.perf_counter(), time.process_time()
+        self._clocks = time.monotonic(), time.perf_counter(), cpu_s()
 
     def go_on(self, agent: Agent, explorations: Explorations, recorder: Recorder) -> None:
         """If the run was interrupted, make all as it was then. A checkpoint that other code wrote, or that is damaged,
@@ -80,7 +81,7 @@ class Keeping:
         _, wall, cpu = self._clocks
         text = json.dumps(body, separators=(",", ":"), allow_nan=False).encode()
         head = {**self._mine(), "sha256": hashlib.sha256(text).hexdigest(), "done": done, "cycles": cycles,
-                "wall_s": self.wall_s + time.perf_counter() - wall, "cpu_s": self.cpu_s + time.process_time() - cpu}
+                "wall_s": self.wall_s + time.perf_counter() - wall, "cpu_s": self.cpu_s + cpu_s() - cpu}
         write_bytes(self.file, json.dumps(head).encode() + b"\n" + text + b"\n")
         self._clocks = time.monotonic(), wall, cpu
 

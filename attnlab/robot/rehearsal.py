@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import threading
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -100,30 +101,33 @@ def read_journal(file: Path, key: str) -> dict[str, list[Outcome]]:
     return found
 
 
-_stage: tuple[RunPlan, Simulator, int] | None = None  # (plan, simulator, episodes) of this process
+class _Stage(threading.local):
+    """What was opened on this thread: (plan, simulator, episodes)."""
+    opened: tuple[RunPlan, Simulator, int] | None = None
+
+
+_stage = _Stage()
 
 
 def _open(config: Mapping[str, Any], episodes: int) -> None:
-    global _stage
-    if _stage is None:
+    if _stage.opened is None:
         end_with_parent()
         load_all()
         plan = RunPlan({**config, "check_identities": False})
-        _stage = plan, plan.simulator(), episodes
+        _stage.opened = plan, plan.simulator(), episodes
 
 
 def _close() -> None:
-    global _stage
-    if _stage is not None:
-        _stage[1].close()
-    _stage = None
+    if _stage.opened is not None:
+        _stage.opened[1].close()
+    _stage.opened = None
 
 
 def play(candidate: str) -> list[Outcome]:
     """Play the episodes with this learner. It starts with streams of its own, so that all candidates share their
     luck."""
-    assert _stage is not None, "nothing was opened"
-    plan, simulator, episodes = _stage
+    assert _stage.opened is not None, "nothing was opened"
+    plan, simulator, episodes = _stage.opened
     agent = plan.agent(simulator, json.loads(candidate))
     exploration, outcomes = plan.exploration("train"), []
     for episode in range(episodes):

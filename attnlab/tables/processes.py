@@ -17,6 +17,12 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def cpu_s() -> float:
+    """CPU seconds that this process has spent; on a thread beside the main one, that thread."""
+    alone = threading.current_thread() is threading.main_thread()
+    return time.process_time() if alone else time.thread_time()
+
+
 def signal_name(number: int) -> str:
     """What a signal is called: ``SIGSEGV (signal 11)``."""
     try:

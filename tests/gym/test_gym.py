@@ -189,7 +189,7 @@ def gym_episodes_bare(env):
 
 def test_the_page_of_the_docs_runs(capsys):
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "gym.md").read_text(), re.S)
-    assert len(blocks) == 2
+    assert len(blocks) == 3
     for block in blocks:
         exec(compile(block, "docs/gym.md", "exec"), {})
-    assert re.match(r"\d+ (none|crash|hunger|thirst) ", capsys.readouterr().out)
+    assert re.match(r"\d+ (none|crash|hunger|thirst) .*\n\(8, 5\) True\n", capsys.readouterr().out)

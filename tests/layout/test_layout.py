@@ -40,10 +40,10 @@ FLOORS = (
     ("cli", "testing", "clock"),
     ("certify", "appraise", "arena", "calibrate", "replay", "search", "gym", "fig1", "plot", "parts", "new", "api",
      "__main__", "enjoy", "export", "rerun", "retry", "tune", "watch", "work"),
-    ("render",),
+    ("batch", "render"),
 )
 TOP = {  # modules that are no commands
-    "__init__", "api", "arithmetic", "attention", "clock", "config", "console", "cycle", "equations", "errors",
+    "__init__", "api", "arithmetic", "attention", "batch", "clock", "config", "console", "cycle", "equations", "errors",
     "groups", "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
 # thin modules for python -m; the others are packages with __main__
 COMMANDS = {"__main__", "enjoy", "fig1", "new", "parts", "export", "rerun", "retry", "tune", "watch", "work"}
