@@ -133,7 +133,8 @@ SUPPORT = """## What is supported
 
 Linux, Python 3.11 to 3.13; that is what the tests run on. macOS has all that the code asks for (fork server, file
 locks, signals) and is not tested. Windows has no fork server and no SIGTERM: runs start as fresh processes there, a
-stop from outside gives no claim back until it is 120 s silent, and it is not tested either.
+stop from outside gives no claim back until it is 120 s silent, and it is not tested either. Where a process may map
+less than 4 GB (`ulimit -v`), runs start as fresh processes too; with less than 1 GB a command says so and stops.
 
 The same bytes on Python 3.11, 3.12 and 3.13, and on a processor without extensions:
 

@@ -78,27 +78,10 @@ def opened(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
     from hydra import initialize_config_dir
     from hydra.core.global_hydra import GlobalHydra
 
-    from attnlab.cli.harmless import check_files
     from attnlab.launch.door import Door
     flags, overrides = normalise(list(arguments))
     with initialize_config_dir(str(conf_dir()), version_base="1.3"):
         door = Door(GlobalHydra.instance().config_loader())
         overrides = door.in_place(overrides)
-        parsed = door.check(overrides)
-        if check_files(parsed):
-            _check_together([str(o.input_line) for o in parsed if not o.is_sweep_override()])
+        door.check(overrides)
     return flags, overrides
-
-
-def _check_together(overrides: list[str]) -> None:
-    """What the chosen files ask of Hydra, also through files that they name. Raises ConfigError."""
-    from hydra import compose
-    from hydra.errors import HydraException
-    from omegaconf.errors import OmegaConfBaseException
-
-    from attnlab.cli.harmless import check_composed
-    try:
-        config = compose("config", overrides, return_hydra_config=True)
-    except (HydraException, OmegaConfBaseException):  # will be raised again where it can be explained
-        return
-    check_composed(config.hydra)

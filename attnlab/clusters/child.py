@@ -20,7 +20,7 @@ from attnlab.launch.worker import FAILED, LOST, WHERE, work
 from attnlab.paths import PACKAGE
 from attnlab.tables.claim import BEAT_S, Claim
 from attnlab.tables.files import read_json, write_json
-from attnlab.tables.processes import signal_name
+from attnlab.tables.processes import address_space, signal_name
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -28,13 +28,15 @@ if TYPE_CHECKING:
     Context = ForkServerContext | SpawnContext
 
 START_S = 120.0  # that a process may take to begin its run on a busy machine
+SERVER_BYTES = 4e9  # of address space that the server of all imports, and a run beside it, certainly fit in
 UNKNOWN = 255  # the exit code of a process whose fork server was killed
 
 
 def context_for(jobs: Sequence[Job]) -> Context:
     """Processes forked from a server that has the imports, and nothing else, done already: a run starts in
-    milliseconds and no thread or lock of ours is copied. Where there is no fork, fresh processes."""
-    if "forkserver" not in multiprocessing.get_all_start_methods():
+    milliseconds and no thread or lock of ours is copied. Where there is no fork, or too little memory for all imports
+    at once, fresh processes."""
+    if "forkserver" not in multiprocessing.get_all_start_methods() or address_space() < SERVER_BYTES:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     compiled = any(job.engine is not None and job.engine.name == "compiled" for job in jobs)

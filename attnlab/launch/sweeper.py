@@ -11,6 +11,7 @@ import types
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from hydra._internal.sources_registry import SourcesRegistry
 from hydra.core.config_search_path import ConfigSearchPath
 from hydra.core.config_store import ConfigStore
 from hydra.core.override_parser.types import Override
@@ -26,6 +27,7 @@ from attnlab.groups import GROUPS
 from attnlab.launch.compose import Composer
 from attnlab.launch.door import MOST_RUNS, Door
 from attnlab.launch.expand import Expansion, choices, name_of
+from attnlab.launch.harmless import SCHEME, CheckedFiles
 from attnlab.launch.jobs import Job, check_once
 from attnlab.launch.pilots import UndecidedError, sound
 from attnlab.launch.place import check_place
@@ -138,7 +140,7 @@ class PluginFolders(SearchPathPlugin):
 
     def manipulate_search_path(self, search_path: ConfigSearchPath) -> None:
         for folder in config_folders():
-            search_path.append(provider="attnlab", path=f"file://{folder}")
+            search_path.append(provider="attnlab", path=f"{SCHEME}://{folder}")
 
 
 def register_with_hydra() -> None:
@@ -155,5 +157,6 @@ def register_with_hydra() -> None:
     for part in (StudySweeper, PluginFolders):
         part.__module__ = NAMESPACE
         plugins.register(part)
+    SourcesRegistry.instance().register(CheckedFiles)
     ConfigStore.instance().store(group="hydra/sweeper", name="basic", provider="attnlab", node={
         "_target_": f"{NAMESPACE}.StudySweeper", "params": None})

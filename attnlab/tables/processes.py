@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import platform
 import signal
@@ -21,6 +22,16 @@ def cpu_s() -> float:
     """CPU seconds that this process has spent; on a thread beside the main one, that thread."""
     alone = threading.current_thread() is threading.main_thread()
     return time.process_time() if alone else time.thread_time()
+
+
+def address_space() -> float:
+    """Bytes that a process may map (``ulimit -v``); infinite where nothing limits it."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return math.inf
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return math.inf if limit == resource.RLIM_INFINITY else limit
 
 
 def signal_name(number: int) -> str:

@@ -19,6 +19,7 @@ CASES = [
     (["train_episodes=0"], "train_episodes", "at least 1"),
     (["train_episodes=1.5"], "train_episodes", "whole number"),
     (["train_episodes=1e9"], "train_episodes", "GB"),
+    (["record=all", "train_episodes=100000", "max_cycles=10000"], "record", "GB"),
     (["validation_episodes=-1"], "validation_episodes", "at least 0"),
     (["outputs=/proc/x"], "outputs", "cannot be written"),
     (["study=../elsewhere"], "study", "folder"),

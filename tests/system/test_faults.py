@@ -14,6 +14,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from attnlab.clusters.child import context_for
 from attnlab.launch.progress import Display
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -155,15 +156,31 @@ def test_a_config_file_runs_no_code(complain, tmp_path, name):
     assert not (tmp_path / "outputs").exists()
 
 
-def test_callbacks_through_another_file(complain, tmp_path):
+@pytest.mark.parametrize("name", ["callbacks", "target", "logging"])
+def test_code_through_another_file(complain, tmp_path, name):
+    """What was chosen names a file that names the code."""
     (tmp_path / "plugins" / "experiment").mkdir(parents=True)
-    (tmp_path / "plugins" / "hydra").mkdir()
-    (tmp_path / "plugins" / "experiment" / "sly.yaml").write_text(
-        "# @package _global_\ndefaults: [other]\n")
-    (tmp_path / "plugins" / "experiment" / "other.yaml").write_text(
-        "# @package _global_\nhydra: {callbacks: {x: {a: 1}}}\n")
+    (tmp_path / "plugins" / "experiment" / "sly.yaml").write_text("# @package _global_\ndefaults: [other]\n")
+    (tmp_path / "plugins" / "experiment" / "other.yaml").write_text(FILES[name][1])
     code, err, _ = complain("experiment=sly", "simulator=planar")
-    assert code == 2 and "hydra.callbacks" in err, err
+    assert code == 2 and "plugins/experiment/other.yaml" in err and FILES[name][2] in err, err
+    assert not (tmp_path / "outputs").exists()
+
+
+def test_a_swept_file_is_looked_at_too(complain, tmp_path):
+    (tmp_path / "plugins" / "world").mkdir(parents=True)
+    (tmp_path / "plugins" / "world" / "bomb.yaml").write_text(FILES["bomb"][1])
+    code, err, _ = complain("world=paper,bomb", "simulator=planar")
+    assert code == 2 and "plugins/world/bomb.yaml: its anchors stand for more" in err, err
+
+
+def test_little_memory(monkeypatch, tmp_path):
+    """Too little to live in is said before anything is written; a little more makes no fork server."""
+    done = shell(tmp_path, "ulimit -v 900000; PY")
+    assert done.returncode == 2 and done.stderr.startswith("attnlab: ulimit -v: allows a process 922 MB"), done.stderr
+    assert not (tmp_path / "outputs").exists()
+    monkeypatch.setattr("attnlab.clusters.child.address_space", lambda: 2e9)
+    assert context_for([]).get_start_method() == "spawn"
 
 
 def test_a_claims_file_is_not_printed(complain, tmp_path):

@@ -1,43 +1,39 @@
-"""Config files of one's own, looked at before Hydra reads them: they set values and run no code."""
+"""Config files of one's own, looked at as Hydra loads them: they set values and run no code."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from hydra.core.override_parser.types import Override
+from hydra._internal.core_plugins.file_config_source import FileConfigSource
+from hydra.plugins.config_source import ConfigResult
 
 from attnlab.errors import ConfigError
-from attnlab.loading import config_folders
 from attnlab.tables.yamls import read_yaml
 
 RUNS_CODE = ("_target_", "()")  # what Hydra, and Python's logging, take for the name of something to call
+SCHEME = "attnlab"
 
 
-def check_files(overrides: Iterable[Override]) -> bool:
-    """Look at the chosen config files that are not ours; were there any? Raises ConfigError that names the file."""
-    found = False
-    for override in overrides:
-        group = str(override.get_key_element()).lstrip("+~")
-        names = override.value() if not override.is_sweep_override() else []
-        for name in names if isinstance(names, list) else [names]:
-            for folder in config_folders():
-                file = folder / group / f"{name}.yaml"
-                if file.is_file():
-                    _check_file(file)
-                    found = True
-    return found
+class CheckedFiles(FileConfigSource):
+    """A folder of config files whose content is looked at before Hydra has it, whoever names them: a command line, a
+    sweep, another file."""
+
+    @staticmethod
+    def scheme() -> str:
+        return SCHEME
+
+    def load_config(self, config_path: str) -> ConfigResult:
+        """As Hydra's own. Raises ConfigError that names the file."""
+        file = Path(self.path) / self._normalize_file_name(config_path)
+        if file.is_file():
+            check_file(file)
+        return super().load_config(config_path)
 
 
-def check_composed(hydra: Mapping[str, Any]) -> None:
-    """Look at what all files together ask of Hydra. Raises ConfigError."""
-    if hydra.get("callbacks"):
-        raise ConfigError("hydra.callbacks", "a config file asks for callbacks, which run code",
-                          "Who watches a run is a part of ours: callback=[...]")
-
-
-def _check_file(file: Path) -> None:
+def check_file(file: Path) -> None:
+    """Raise ConfigError if a file names code, or stands for more than can be held."""
     from yaml import YAMLError
     try:
         content = read_yaml(file.read_text())
