@@ -43,6 +43,7 @@ def hydra_application(arguments: list[str]) -> int:
 
     from attnlab.cli.explain import explain
     from attnlab.cli.store import store_options
+    from attnlab.launch.foreign import StudyLauncher, held_back
     from attnlab.launch.sweeper import StudySweeper, register_with_hydra
     StudySweeper.exit_code = 0
     store_options()
@@ -55,6 +56,7 @@ def hydra_application(arguments: list[str]) -> int:
     saved = sys.argv
     try:
         flags, overrides = opened(arguments)
+        overrides = held_back(overrides)
         if not any(flag.partition("=")[0] in (*ASKS, "-m", "--multirun") for flag in flags):
             flags = ["-m", *flags]  # every invocation is a study, if of one run
         sys.argv = ["attnlab", *flags, *overrides]
@@ -65,12 +67,15 @@ def hydra_application(arguments: list[str]) -> int:
         return 2 if end.code else 0
     except Exception as cause:
         problem = None if os.environ.get("ATTNLAB_DEBUG") else explain(cause)
+        if problem is None and StudyLauncher.failed:  # as a sweeper does that was told of it
+            print(f"attnlab: the sweeper stopped: {describe(cause)}", file=sys.stderr)
+            return 1
         if problem is None:
             raise
         raise problem from None
     finally:
         sys.argv = saved
-    return StudySweeper.exit_code
+    return 1 if StudyLauncher.failed else StudySweeper.exit_code
 
 
 def opened(arguments: Sequence[str]) -> tuple[list[str], list[str]]:

@@ -37,6 +37,7 @@ class Door:
 
     def __init__(self, loader: Any):
         self.loader, self.searchpath = loader, list[str]()
+        self.foreign = False  # is there a sweeper of others?
         self.parser = OverridesParser.create(config_loader=loader)
         self.options = cache(self._options)
 
@@ -68,6 +69,7 @@ class Door:
         """The parsed arguments. Raises ConfigError if one cannot be meant."""
         overrides = self.parsed(arguments)
         self.searchpath = [str(o.input_line) for o in overrides if o.key_or_group == "hydra.searchpath"]
+        self.foreign = any(o.key_or_group == "hydra/sweeper" and o.value() != "basic" for o in overrides)
         seen: dict[str, Override] = {}
         for override in overrides:
             self.check_one(override)
@@ -139,6 +141,11 @@ class Door:
         if key in ALLOWED:
             if override.is_delete() or override.value() is None:
                 raise ConfigError(text, "sets nothing", "Leave it out")
+            return
+        if key == "hydra/sweeper" and not override.is_delete():
+            self._check_group(key, override.value())
+            return
+        if key.startswith("hydra.sweeper.") and self.foreign:
             return
         hints = {"launcher": "Where runs are done is a part of ours: cluster=local",
                  "sweeper": "Sweeps are typed: python -m attnlab learner.alpha=0.1,0.5 seed=0-9",

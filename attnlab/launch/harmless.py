@@ -50,9 +50,18 @@ def check_file(file: Path) -> None:
                         "hydra/callbacks" in str(key) or (key == "callbacks" and node is _hydra(content)):
                     raise ConfigError(str(file), f"{key} names code to run, and a config file sets values only",
                                       "A part of one's own: docs/authors.md")
+                if "hydra/sweeper" in str(key):
+                    raise ConfigError(str(file), "a sweeper is chosen by a config file, and a sweeper runs code",
+                                      f"Type hydra/sweeper={value}")
                 nodes.append(value)
         elif isinstance(node, list):
             nodes += node
+    hydra = _hydra(content)
+    sweeper = hydra.get("sweeper") if isinstance(hydra, Mapping) else None
+    for key in sweeper if isinstance(sweeper, Mapping) else ():
+        if key != "params":  # some sweepers take names of functions
+            raise ConfigError(str(file), f"hydra.sweeper.{key} is for the command line",
+                              f"Type hydra.sweeper.{key}=...")
 
 
 def _hydra(content: Any) -> Any:

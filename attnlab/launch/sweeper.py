@@ -27,6 +27,7 @@ from attnlab.groups import GROUPS
 from attnlab.launch.compose import Composer
 from attnlab.launch.door import MOST_RUNS, Door
 from attnlab.launch.expand import Expansion, choices, name_of
+from attnlab.launch.foreign import StudyLauncher
 from attnlab.launch.harmless import SCHEME, CheckedFiles
 from attnlab.launch.jobs import Job, check_once
 from attnlab.launch.pilots import UndecidedError, sound
@@ -154,9 +155,11 @@ def register_with_hydra() -> None:
         namespace = sys.modules["hydra_plugins"] = types.ModuleType("hydra_plugins")
         namespace.__path__ = []
     namespace.attnlab = sys.modules[NAMESPACE] = sys.modules[__name__]
-    for part in (StudySweeper, PluginFolders):
+    for part in (StudySweeper, PluginFolders, StudyLauncher):
         part.__module__ = NAMESPACE
         plugins.register(part)
     SourcesRegistry.instance().register(CheckedFiles)
     ConfigStore.instance().store(group="hydra/sweeper", name="basic", provider="attnlab", node={
         "_target_": f"{NAMESPACE}.StudySweeper", "params": None})
+    ConfigStore.instance().store(group="hydra/launcher", name="basic", provider="attnlab", node={
+        "_target_": f"{NAMESPACE}.StudyLauncher"})

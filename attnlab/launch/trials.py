@@ -14,7 +14,7 @@ import shlex
 import sys
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from attnlab.arithmetic import total
 from attnlab.config import TuneSettings, digits_of, that_count
@@ -24,14 +24,11 @@ from attnlab.launch.expand import Expansion
 from attnlab.launch.jobs import check_once
 from attnlab.launch.place import check_place
 from attnlab.launch.space import axis
-from attnlab.registry import make
+from attnlab.launch.worth import goal_of, worth
 from attnlab.report.tuned import Seen, Trial, Tuned, page, said, shown
 from attnlab.tables.files import write_bytes
 from attnlab.tables.flat import dig
 from attnlab.tables.ranges import compact
-
-if TYPE_CHECKING:
-    from attnlab.measures.base import Measure
 
 JOURNAL, TABLE, PAGE = "tune.journal", "tune.csv", "tune.html"
 AGAIN = "again"  # a trial that is tried once more names the one it stands for
@@ -49,7 +46,7 @@ class Tuning:
             raise ConfigError("tune.goal", "optuna is not installed", "pip install 'attnlab[tune]'") from None
         self.optuna, self.expansion, self.wanted, self.typed = optuna, expansion, wanted, list(typed)
         optuna.logging.set_verbosity(optuna.logging.WARNING)
-        self.measure = _measure(wanted.goal)
+        self.measure = goal_of(wanted.goal)
         self.seeds = expansion.seeds or []
         if len(self.seeds) < 2:
             raise ConfigError("seed", "a trial needs several: the best of one seed is that seed's luck", "seed=0-2")
@@ -133,21 +130,10 @@ class Tuning:
 
     def _play(self, point: Mapping[str, str]) -> tuple[dict[int, float], str]:
         """(what the goal is for each seed, or why it is nothing); what is there already is not run again."""
-        from attnlab.measures.base import CannotMeasure
-        from attnlab.results.conditions import Conditions, Runs
-        from attnlab.results.load import Study
         jobs = self.expansion.trial(point)
         check_once(jobs)
         failed = complete(jobs, self.typed)
-        if failed:
-            return {}, f"{failed[0][0].run}: {failed[0][1]}"
-        runs = Runs(Conditions(Study(self.folder), {}), {}, {job.settings.seed: job.run for job in jobs})
-        try:
-            found = {int(seed): float(value) for seed, value in self.measure.of(runs).items()}
-        except CannotMeasure as cause:
-            raise ConfigError("tune.goal", f"cannot be taken: {cause}", "Another measure, or other settings") from None
-        odd = [seed for seed in self.seeds if not math.isfinite(found.get(seed, math.nan))]
-        return ({}, f"seed {odd[0]} has no finite value") if odd else (found, "")
+        return ({}, f"{failed[0][0].run}: {failed[0][1]}") if failed else worth(self.measure, jobs)
 
     def _write(self, study: Any, last: bool = False) -> Tuned:
         """All trials so far as a table and a page."""
@@ -228,16 +214,3 @@ def _kept(study: Any) -> list[Any]:
         home[trial.number] = home.get(trial.user_attrs.get(AGAIN, -1), trial.number)
         found[home[trial.number]] = trial
     return [found[number] for number in sorted(found)]
-
-
-def _measure(goal: Any) -> Measure:
-    """The goal. Raises ConfigError."""
-    node = {"name": goal} if isinstance(goal, str) else goal
-    if not isinstance(node, Mapping) or not isinstance(node.get("name"), str):
-        raise ConfigError("tune.goal", f"{goal!r} is no measure",
-                          "tune.goal=survival, or {name: survival, phase: train}")
-    try:
-        measure: Measure = make("measure", node, None, "tune.goal")
-    except TypeError as cause:
-        raise ConfigError("tune.goal", f"{node['name']} needs more: {cause}", "{name: ..., setting: ...}") from None
-    return measure

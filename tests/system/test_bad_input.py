@@ -86,7 +86,7 @@ CASES = [
     (["ключ=5"], "ключ=5", "cannot be read"),
     (["curiosity@x=none"], "curiosity@x=none", "packages are not used"),
     (["hydra.sweeper._target_=x"], "hydra.sweeper._target_=x", "is not used here"),
-    (["hydra/sweeper=optuna"], "hydra/sweeper=optuna", "is not used here"),
+    (["hydra/sweeper=optuna"], "hydra/sweeper=optuna", "no hydra/sweeper is called 'optuna'"),
     (["hydra/launcher=joblib"], "hydra/launcher=joblib", "cluster=local"),
     (["hydra.launcher.n_jobs=2"], "hydra.launcher.n_jobs=2", "cluster=local"),
     (["+hydra.callbacks.x._target_=os.getcwd"], "+hydra.callbacks.x._target_=os.getcwd", "callback="),
