@@ -145,7 +145,7 @@ class Door:
         if key == "hydra/sweeper" and not override.is_delete():
             self._check_group(key, override.value())
             return
-        if key.startswith("hydra.sweeper.") and self.foreign:
+        if key.startswith(("hydra.sweeper.", "hydra/sweeper/")) and self.foreign and "_target_" not in text:
             return
         hints = {"launcher": "Where runs are done is a part of ours: cluster=local",
                  "sweeper": "Sweeps are typed: python -m attnlab learner.alpha=0.1,0.5 seed=0-9",

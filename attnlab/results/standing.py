@@ -94,7 +94,8 @@ def said(folder: Path, found: Look) -> Iterator[str]:
     states = ", ".join(f"{found.states[state]} {state}" for state in STATES if found.states[state])
     yield f"{folder}: {sum(found.states.values())} runs asked for: {states}"
     left = f", about {_minutes(found.left_s)} left" if found.left_s is not None else ""
-    yield f"  {found.episodes_done:,} of {found.episodes:,} episodes, {found.cycles_per_s:,.0f} cycles/s{left}"
+    yield (f"  {found.episodes_done:,} of {found.episodes:,} episodes"
+           f"{'' if found.over else f', {found.cycles_per_s:,.0f} cycles/s'}{left}")
     width = max([9, *map(len, found.conditions)])
     yield f"  {'condition':{width}}  complete   survival in training  validation  now"
     for name, of in found.conditions.items():
