@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from attnlab.config import RunSettings
 from attnlab.console import guarded
 from attnlab.errors import ConfigError, nearest
 from attnlab.loading import load_all
@@ -36,13 +37,14 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("settings", nargs="*", help=f"episodes=100, study=NAME, and of {', '.join(OF_THE_WORLD)}")
     given = parser.parse_args(list(argv))
     load_all()
+    from attnlab.results.one import no_run
     from attnlab.results.states import read_config, state_of
     from attnlab.robot.plan import RunPlan
     folder = Path(given.run)
     status, why, about = state_of(folder)
     stored = read_config(folder)
     if status != "complete" or stored is None:
-        raise ConfigError(str(folder), f"no complete run ({why or status})", "Name a run: outputs/<study>/<run>")
+        raise no_run(folder, why or status)
     own, typed = parted(given.settings)
     plan = RunPlan(other_life(stored, folder, own, typed))
     s = plan.settings
@@ -76,6 +78,8 @@ def parted(settings: Sequence[str]) -> tuple[dict[str, str], list[str]]:
             own[name] = value
         elif head in OF_THE_WORLD:
             typed.append(setting)
+        elif head not in RunSettings.__dataclass_fields__:
+            raise ConfigError(name, "no such setting", nearest(head, (*OWN, *OF_THE_WORLD)))
         else:
             raise ConfigError(name, "belongs to the robot, which lives as it has learned",
                               nearest(head, (*OWN, *OF_THE_WORLD)))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from attnlab.errors import ConfigError
+from attnlab.results.one import no_run
 from attnlab.results.states import read_config, state_of
 from attnlab.robot.folder import run_to_folder
 from attnlab.tables.code import code, versions
@@ -21,7 +21,7 @@ def made_again(folder: Path) -> list[str]:
     status, why, about = state_of(folder)
     config = read_config(folder)
     if status != "complete" or config is None:
-        raise ConfigError(str(folder), f"no complete run ({why or status})", "Name a run: outputs/<study>/<run>")
+        raise no_run(folder, why or status)
     info = {"run": about.get("run", folder.name), "key": about.get("key"), "overrides": about.get("overrides") or [],
             "swept": about.get("swept") or {}}
     with tempfile.TemporaryDirectory(prefix="attnlab-") as home:

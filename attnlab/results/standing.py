@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -92,15 +93,20 @@ def look(folder: Path) -> Look:
 def said(folder: Path, found: Look) -> Iterator[str]:
     """The look as lines."""
     states = ", ".join(f"{found.states[state]} {state}" for state in STATES if found.states[state])
-    yield f"{folder}: {sum(found.states.values())} runs asked for: {states}"
+    asked = sum(found.states.values())
+    yield f"{folder}: {asked} run{'s' * (asked != 1)} asked for: {states}"
     left = f", about {_minutes(found.left_s)} left" if found.left_s is not None else ""
     yield (f"  {found.episodes_done:,} of {found.episodes:,} episodes"
            f"{'' if found.over else f', {found.cycles_per_s:,.0f} cycles/s'}{left}")
-    width = max([9, *map(len, found.conditions)])
-    yield f"  {'condition':{width}}  complete   survival in training  validation  now"
+    room = max(11, shutil.get_terminal_size().columns - 44)
+    width = max([11, *(len(name) for name in found.conditions if len(name) <= room)])
+    yield f"  {'survival of':{width}}  complete   training  validation      now"
     for name, of in found.conditions.items():
         means = [_percent(values) for values in (of.train, of.validation, of.living)]
-        yield f"  {name:{width}}  {of.complete:>4}/{of.asked:<4}  {means[0]:>20}  {means[1]:>10}  {means[2]:>5}"
+        if len(name) > width:  # a line of its own
+            yield f"  {name}"
+        yield (f"  {name if len(name) <= width else '':{width}}  {of.complete:>4}/{of.asked:<4}  {means[0]:>8}  "
+               f"{means[1]:>10}  {means[2]:>7}")
     for run, who, done, episodes, silent in found.running[:20]:
         quiet = f", silent for {silent:.0f} s" if silent > SILENT_S else ""
         yield f"  running: {run}: {done:,}/{episodes:,} episodes ({who}{quiet})"

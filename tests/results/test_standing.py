@@ -9,6 +9,7 @@ import pytest
 
 from attnlab.console import guarded
 from attnlab.results import load
+from attnlab.results.one import no_run
 from attnlab.results.standing import look, said
 from attnlab.results.summary import _from_tables, summary_frame
 from attnlab.tables.claim import PATIENCE_S, take
@@ -55,6 +56,22 @@ def test_what_is_told(study):
     assert f"failed: {missing.name}: [/b] why" in "\n".join(said(study, look(study)))
     (study / missing.name / "run.json").unlink()
     (study / missing.name).rmdir()
+
+
+def test_its_table_fits_a_narrow_terminal(study, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "60")
+    found = look(study)
+    for name in ("x" * 16, "y" * 17, "z" * 60):
+        found.conditions[name] = found.conditions["none"]
+    lines = list(said(study, found))[2:]
+    assert max(len(line) for line in lines if "zzz" not in line) <= 60
+    assert any(line.startswith(f"  {'x' * 16}     1/2") for line in lines) and f"  {'z' * 60}" in lines
+
+
+def test_of_a_study_a_run_is_named(study):
+    error = no_run(study, "")
+    assert error.problem == "no complete run (it is a study)" and "-seed0-" in error.hint
+    assert "there is no such folder" in no_run(study / "nowhere", "").problem
 
 
 def test_the_command_looks_once(study, capsys):

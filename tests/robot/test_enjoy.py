@@ -52,7 +52,7 @@ def test_it_is_kept_as_a_study_that_can_be_watched(run, here, tmp_path):
 
 @pytest.mark.parametrize(("settings", "says"), [
     (["curiosity=none"], "curiosity: belongs to the robot, which lives as it has learned. Known: engine, episodes"),
-    (["word=open"], "word: belongs to the robot, which lives as it has learned. Did you mean 'world'?"),
+    (["word=open"], "word: no such setting. Did you mean 'world'?"),
     (["world"], "world: is no setting"), (["world=nowhere"], "no world is called 'nowhere'"),
     (["episodes=0"], "episodes: is 0"), (["simulator.drive=wheels"], "simulator.drive: no such setting"),
     (["needs.what.else=1"], "needs.what.else: no such setting"), (["world=open,paper"], "world=open,paper"),
@@ -77,7 +77,7 @@ def test_commands_of_the_page(here, school, tmp_path):
 
 def test_a_folder_that_is_no_run(here):
     done = here("nowhere", module="attnlab.enjoy")
-    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1) and "no complete run" in done.stderr
+    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1) and "there is no such folder" in done.stderr
 
 
 def test_the_interval_is_welchs():
