@@ -58,7 +58,8 @@ def composer() -> Composer:
 
 def swept(overrides: Sequence[str]) -> Path:
     """Run what is missing of the study that these overrides ask for; its folder. Raises ConfigError."""
+    from attnlab.launch.foreign import StudyLauncher
     from attnlab.launch.sweeper import StudySweeper
     load_all()
     hydra_application(list(overrides))
-    return StudySweeper.folder
+    return StudyLauncher.folder if StudyLauncher.kept else StudySweeper.folder
