@@ -99,6 +99,7 @@ def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
 
 def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Sequence[str]) -> None:
     """Figures, summary and hints of what is complete."""
+    from attnlab.report import statements
     from attnlab.results.load import Study
     from attnlab.results.summary import print_summary
     study = Study(folder)
@@ -107,6 +108,7 @@ def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Seque
     if not named:
         return
     made: dict[str, Path] = {}
+    said = ""
     if settings.picture:
         from attnlab.report import survival_picture
         print("drawing the picture", file=sys.stderr, flush=True)
@@ -114,7 +116,10 @@ def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Seque
     if settings.report:
         page = _report(study, settings)
         made |= {"report": page} if page else {}
-    hints = {} if settings.report else {"next": f"python -m attnlab.report {shlex.quote(str(folder))}"}
+        said = statements(page) if page else ""
+    hints = {"found": said} if said else {}
+    if not settings.report:
+        hints["next"] = f"python -m attnlab.report {shlex.quote(str(folder))}"
     hints |= robots.at_end(jobs, as_typed(typed))
     others = len(study.complete) - len(named)
     if others:

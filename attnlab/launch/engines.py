@@ -10,6 +10,7 @@ from attnlab.console import heard
 from attnlab.launch.jobs import Job
 from attnlab.robot.engines import Choice, choose
 
+SAID: set[str] = set()  # what this command has told already, of pilots and of the study together
 PARTS = ("behaviours", "curiosity", "exploration", "fusion", "learner", "needs", "simulator")
 
 
@@ -20,18 +21,18 @@ def prepare(jobs: Sequence[Job]) -> None:
     for job in jobs:
         cycles[_parts(job)] += job.settings.max_cycles * job.episodes
     chosen: dict[str, Choice] = {}
-    tried, said = list[int](), set[str]()
+    tried = list[int]()
 
     def compiling() -> None:
         tried.append(1)
-        _say("compiling, about 10 s for each composition of parts, once", said)
+        _say("compiling, about 10 s for each composition of parts, once")
     for job in jobs:
         if job.of.key not in chosen:
             before = len(tried)
             with heard():
                 found = chosen[job.of.key] = choose(job.plan, cycles[_parts(job)], compiling)
             if len(tried) > before and found.name == "python":
-                _say(f"runs interpreted: {found.why}", said)
+                _say(f"runs interpreted: {found.why}")
         job.engine = chosen[job.of.key]
 
 
@@ -45,8 +46,8 @@ def _parts(job: Job) -> str:
     return repr(composition(job))
 
 
-def _say(what: str, said: set[str]) -> None:
-    """A line for whoever waits, once."""
-    if what not in said:
-        said.add(what)
+def _say(what: str) -> None:
+    """A line for whoever waits, once a command."""
+    if what not in SAID:
+        SAID.add(what)
         print(what, file=sys.stderr, flush=True)

@@ -30,6 +30,18 @@ def build_report(study: Study | str | Path, out: str | Path | None = None, claim
     return build(study, out, claims, baselines, quiet, tell)
 
 
+def statements(page: Path) -> str:
+    """How many statements of each kind the report of a multiverse makes, in words; empty for any other report."""
+    import csv
+    import io
+    from collections import Counter
+    file = page.parent / "joint.csv"
+    if not file.is_file():
+        return ""
+    kinds = Counter(row["statement"] for row in csv.DictReader(io.StringIO(file.read_text())))
+    return f"{', '.join(f'{count} {kind}' for kind, count in kinds.most_common())}, of {kinds.total()} comparisons"
+
+
 def survival_picture(study: Study | str | Path) -> Path:
     """Draw survival against episodes (mean over seeds, 95 % band, a line a condition) to ``<study>/survival.png``."""
     from attnlab.figures.base import FigureContext

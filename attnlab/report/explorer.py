@@ -37,10 +37,10 @@ def explorer(found: Multiverse, curves: Curves) -> str:
             f"<span>−{LIMIT:g}</span></th><td>{curve_svg(curves, lead, order)}</td></tr>"]
     for f, (factor, of) in enumerate(found.levels.items()):
         for place, level in enumerate(dict.fromkeys(of)):
-            name, css = (f"<b>{escape(short(factor))}</b> ", " class=first") if not place else ("", "")
+            name, css = (f"<b>{_breaking(short(factor))}</b> ", " class=first") if not place else ("", "")
             whole = escape(f"{factor} = {level}")
             row = [x for x, r in enumerate(order) if of[r] == level]
-            rows.append(f'<tr{css}><th scope="row" title="{whole}">{name}{escape(short(level))}</th>'
+            rows.append(f'<tr{css}><th scope="row" title="{whole}">{name}{_breaking(short(level))}</th>'
                         f"<td>{_svg(len(order), 0, 1, _blocks(row, f, place))}</td></tr>")
     orders = [("-", "effect"), *((str(i), short(name)) for i, name in enumerate(found.levels))]
     picks = "".join(f"<label>{label} <select name={name}>{''.join(_option(*of) for of in options)}</select></label> "
@@ -51,6 +51,11 @@ def explorer(found: Multiverse, curves: Curves) -> str:
             f'{escape(curve_said(curves, lead))}</p><table class=spec><tbody>{"".join(rows)}</tbody></table>'
             '<p id=spec-seen class="small seen" aria-live="off"></p></div>'
             f'<script type="application/json" id="spec-data">{_data(found, curves)}</script>')
+
+
+def _breaking(name: str) -> str:
+    """Escaped; on a narrow screen a name breaks after its underscores."""
+    return escape(name).replace("_", "_<wbr>")
 
 
 def _option(value: str, text: str) -> str:

@@ -87,13 +87,13 @@ def _share(at: AtLevel, side: float) -> float:
 
 
 def _list(of: Curves, mine: Sequence[int]) -> str:
-    """Measures by name; against whom, where it is not the same for all."""
-    whom: dict[str, list[str]] = {}
+    """Measures by name, each once; against whom, where it is not the same for all."""
+    together: dict[str, list[Contrast]] = {}
     for m in mine:
-        whom.setdefault(_name(of.contrasts[m]), []).append(of.contrasts[m].whom)
+        together.setdefault(of.contrasts[m].measure, []).append(of.contrasts[m])
     every = {c.whom for c in of.contrasts}
-    names = [name if set(of_name) == every else f"{name} against {' and '.join(of_name)}"
-             for name, of_name in whom.items()]
+    names = [_name(some[0]) if {c.whom for c in some} == every else
+             f"{_name(some[0])} against {' and '.join(c.whom for c in some)}" for some in together.values()]
     more = f"; and {len(names) - NAMED} more" if len(names) > NAMED else ""
     return "; ".join(names[:NAMED]) + more + "."
 

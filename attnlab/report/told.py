@@ -10,12 +10,12 @@ import numpy as np
 from attnlab.arithmetic import total
 from attnlab.report.curve import in_order, p_text, ranked
 from attnlab.report.explorer import curve_svg, explorer, short
+from attnlab.report.matrix import css, matrix
 from attnlab.report.multiverse import Curves, Multiverse
 from attnlab.report.page import Section, table
 from attnlab.report.sentences import HEADS, how_many, in_short, rules, sentences
 from attnlab.report.statements import Kind
 
-CHIPS = {Kind.HANGS: "v-compatible", Kind.MIXED: "v-not", Kind.NOISE: "v-untestable"}
 MOVERS = 3  # factors that a row names
 
 
@@ -26,7 +26,7 @@ def first_screen(found: Multiverse) -> str:
         return ('<h2 id="found">What was found</h2><p>There is nothing to compare: no signed comparison of the claims '
                 "has two seeds in any reading.</p>")
     parts = ['<h2 id="found">What was found</h2>', f"<p>{escape(how_many(len(found.names), of))}</p>",
-             '<div class=kinds>']
+             matrix(of), '<div class=kinds>']
     for kind, count, texts in sentences(of):
         whole = kind in (Kind.ROBUST, Kind.HANGS)  # a sentence a measure; of the others, one that lists them
         items = "".join(f"<li>{_bold(text) if whole else escape(text)}</li>" for text in texts)
@@ -35,7 +35,8 @@ def first_screen(found: Multiverse) -> str:
     parts += ["</div>", "<h3 id=curve>The specification curve</h3>", explorer(found, of),
               "<p class=small>A column a reading: its effect, CR less the control over the standard deviation between "
               "seeds, with the 95 % t interval of its mean; blue clear as claimed, orange clear on the other side, "
-              "grey neither. Below, which level of each factor it has. d beyond the scale is drawn at its edge.</p>"]
+              "grey neither. Below, which level of each factor it has (+1: and of one setting more, which always "
+              "changes with it). d beyond the scale is drawn at its edge.</p>"]
     return "".join(parts)
 
 
@@ -55,12 +56,11 @@ def _comparisons(of: Curves) -> Section:
     j, rows = of.joint, []
     for m in ranked(of):
         c, said = of.contrasts[m], of.statements[m]
-        css = CHIPS.get(said.kind) or ("v-reproduced" if said.side > 0 else "v-contradicted")
         cells = [f"{int((of.effects[:, m] > 0).sum())} of {said.values}", f"{j.clear[m]}", f"{j.opposite[m]}",
                  f"{j.median[m]:+.2f}", p_text(j.p[m]), p_text(j.p_family[m])]
         rows.append(f"<tr><td><b>{escape(c.claim)}</b> {escape(c.measure)}<br><span class=small>claimed "
                     f"{escape(c.told(1.0))} in {escape(c.who)} than in {escape(c.whom)}</span></td>"
-                    f'<td><span class="chip wraps {css}">{escape(in_short(of, m))}</span></td>'
+                    f'<td><span class="chip wraps {css(said)}">{escape(in_short(of, m))}</span></td>'
                     f"<td class=spark>{curve_svg(of, m, in_order(of, m).tolist(), bars=False)}</td>"
                     + "".join(f"<td class=n>{escape(cell)}</td>" for cell in cells) + "</tr>")
     heads = ("comparison", "statement", "curve", "above 0", "clear", "clear below", "median d", "joint p", "p of all")

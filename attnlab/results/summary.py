@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from rich.table import Table
 
+MOST = 40  # conditions of which a table in the terminal can be read
 EDGES = 3  # characters of a table that no column has
 FORMS = {"early": ".1%", "late": ".1%", "validation": ".1%", "crashed": ".1%", "energy": ".0f", "safety": ".2f"}
 
@@ -89,8 +90,23 @@ def shown(row: Mapping[str, Any]) -> list[str]:
 
 def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path], hints: dict[str, str],
                   width: int | None = None) -> None:
-    """Print the table of the runs in ``named`` (run -> condition), where everything is (``made``: what -> path), and
-    what to type next (``hints``: why -> command). ``width``: columns to print in, those of the terminal if left out."""
+    """Print the table of the runs in ``named`` (run -> condition), or of very many conditions how many there are; where
+    everything is (``made``: what -> path), and what to type next (``hints``: why -> command). ``width``: columns to
+    print in, those of the terminal if left out."""
+    conditions = len(set(named.values()))
+    if conditions > MOST:
+        print(f"{study.path.name}: {len(named):,} runs of {conditions:,} conditions, whose means over seeds are in "
+              "conditions.csv of the report")
+    else:
+        _print_table(study, named, width)
+    lines = {"results": study.path, **made, **hints}
+    wide = max(map(len, lines))
+    for what, where in lines.items():
+        print(f"{what:{wide}}  {where}")
+
+
+def _print_table(study: Study, named: Mapping[str, str], width: int | None) -> None:
+    """Means over seeds, a row a condition."""
     from rich.console import Console
     frame = summary_frame(study, named)
     console = Console(width=width or (None if _is_terminal() else 110), highlight=False)
@@ -102,10 +118,6 @@ def print_summary(study: Study, named: Mapping[str, str], made: dict[str, Path],
     console.print(f"{study.path.name}: means over seeds", markup=False)
     for part in parts_of(columns, console.width):
         console.print(_table(part, console.width))
-    lines = {"results": study.path, **made, **hints}
-    wide = max(map(len, lines))
-    for what, where in lines.items():
-        print(f"{what:{wide}}  {where}")
 
 
 def parts_of(columns: list[list[str]], width: int) -> list[list[list[str]]]:

@@ -67,7 +67,9 @@ def main() -> int:
 def run(study: Study, outputs: Path, keep: bool, short: bool) -> float | None:
     """Do the runs of a study and its report; minutes of wall time, None if a run failed."""
     typed = [word for word in study.typed if not (short and word.startswith("seed="))]
-    typed += [*((*SHORT, *study.short) if short else ()), f"outputs={outputs}", *(() if keep else ("fresh=true",))]
+    own = {word.partition("=")[0] for word in study.short}
+    typed += [*((*(word for word in SHORT if word.partition("=")[0] not in own), *study.short) if short else ()),
+              f"outputs={outputs}", *(() if keep else ("fresh=true",))]
     typed += ["report=false", "picture=false"] if study.figures else []  # its page is made when it is collected
     started = time.monotonic()
     done = subprocess.run([sys.executable, "-m", "attnlab", *typed], check=False)

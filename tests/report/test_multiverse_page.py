@@ -6,12 +6,13 @@ import base64
 import hashlib
 import json
 import re
+from html import escape
 
 import numpy as np
 import pytest
 
 from attnlab.claims.files import load_claims
-from attnlab.report import kept, readings, told
+from attnlab.report import kept, readings, statements, told
 from attnlab.report.contrasts import Contrast, contrasts, in_words
 from attnlab.report.multiverse import Multiverse, curves_of
 from attnlab.report.page import page
@@ -75,6 +76,20 @@ def test_the_order_of_the_page(built):
     for name in ("curve", "joint", "shares", "effects"):
         assert (study / f"{name}.csv").is_file()
     assert (study / "figures" / "multiverse_dashboard.svg").is_file()
+
+
+def test_all_statements_at_once(built):
+    """A row a measure, those of which most can be said first, before any sentence."""
+    table = built[0].partition("<table class=glance>")[2].partition("</table>")[0]
+    assert built[0].index("class=glance") < built[0].index("<div class=kinds>")
+    rows = [re.sub(r"<[^>]+>", "|", row).split("|") for row in table.split("<tr>")[2:]]
+    said = {row[1].strip(): next(cell for cell in row[5:] if cell) for row in rows}
+    assert said == {"measure 0": "lower in 20 of 20", "measure 1": escape(f"hangs on {HOSTILE}"), "measure 2": "noise",
+                    "measure 3": "noise"}
+    assert list(said)[:2] == ["measure 0", "measure 1"]
+    assert "robust, as claimed 1</span>" in built[0] and "noise 2</span>" in built[0]
+    assert statements(built[1] / "index.html") == "2 noise, 1 robust, 1 hangs on a factor, of 4 comparisons"
+    assert statements(built[1] / "figures" / "index.html") == ""
 
 
 def test_it_says_all_without_its_script(built):

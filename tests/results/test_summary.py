@@ -36,6 +36,14 @@ def test_every_number_and_condition_is_there(study, width, capsys):
         assert word in left, word  # the condition goes on in the next line and is never cut
 
 
+def test_many_conditions_are_counted(study, capsys):
+    named = {f"r{i}": f"condition {i % 50}" for i in range(1000)}
+    print_summary(study, named, {"report": study.path / "index.html"}, {"found": "3 robust, of 4 comparisons"})
+    out = capsys.readouterr().out.splitlines()
+    assert out[0].endswith(": 1,000 runs of 50 conditions, whose means over seeds are in conditions.csv of the report")
+    assert [line.split()[0] for line in out[1:]] == ["results", "report", "found"]
+
+
 def test_columns_go_where_there_is_room():
     columns = [["condition", "CR"], ["one", "1"], ["two", "2"], ["three", "3"]]
     assert parts_of(columns, 80) == [columns]

@@ -74,10 +74,13 @@ def test_it_is_said_once_that_it_compiles_and_why_it_did_not(monkeypatch, capsys
             announce()
         return Choice("compiled", "") if plan == "d" else Choice("python", "slips.py:3: no")
     monkeypatch.setattr(engines, "choose", chosen)
+    monkeypatch.setattr(engines, "SAID", set())
     engines.prepare(jobs)
     assert capsys.readouterr().err.splitlines() == ["compiling, about 10 s for each composition of parts, once",
                                                     "runs interpreted: slips.py:3: no"]
     assert [job.engine.name for job in jobs] == ["python"] * 4 + ["compiled"]
+    engines.prepare(jobs)  # of a multiverse the next block of pilots, and the study
+    assert capsys.readouterr().err == ""
 
 
 @pytest.fixture
