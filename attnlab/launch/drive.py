@@ -99,7 +99,7 @@ def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
 
 def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Sequence[str]) -> None:
     """Figures, summary and hints of what is complete."""
-    from attnlab.report import statements
+    from attnlab.report import statements_of
     from attnlab.results.load import Study
     from attnlab.results.summary import print_summary
     study = Study(folder)
@@ -116,7 +116,7 @@ def _show(folder: Path, jobs: Sequence[Job], settings: RunSettings, typed: Seque
     if settings.report:
         page = _report(study, settings)
         made |= {"report": page} if page else {}
-        said = statements(page) if page else ""
+        said = statements_of(page) if page else ""
     hints = {"found": said} if said else {}
     if not settings.report:
         hints["next"] = f"python -m attnlab.report {shlex.quote(str(folder))}"

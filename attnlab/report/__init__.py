@@ -30,7 +30,7 @@ def build_report(study: Study | str | Path, out: str | Path | None = None, claim
     return build(study, out, claims, baselines, quiet, tell)
 
 
-def statements(page: Path) -> str:
+def statements_of(page: Path) -> str:
     """How many statements of each kind the report of a multiverse makes, in words; empty for any other report."""
     import csv
     import io

@@ -48,8 +48,6 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
         raise ConfigError("--out", f"{target} cannot be written ({cause.strerror or cause})") from None
     if tell is not None:
         tell(0, len(gallery()))  # what was given is in order: from here on it takes its time
-    for name in TABLES:
-        conditions.frame(name)  # read before hands are forked, once for all of them
     combinations = strata(claims, conditions)
     measured: dict[str, Cache] = {name: {} for name in combinations}
 
@@ -61,6 +59,9 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
         only = ()  # figures of conditions: of a hundred readings nobody could read them
     drawer = drawn.Gallery(FigureContext(others), conditions, captions, target)
     wanted = [name for name in gallery() if conditions.strata and (only is None or name in only)]
+
+    for name in TABLES if wanted else ():
+        conditions.frame(name)  # read before hands are forked, once for all of them
 
     def done(count: int) -> None:
         if tell is not None:

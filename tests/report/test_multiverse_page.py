@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from attnlab.claims.files import load_claims
-from attnlab.report import kept, readings, statements, told
+from attnlab.report import kept, readings, statements_of, told
 from attnlab.report.contrasts import Contrast, contrasts, in_words
 from attnlab.report.multiverse import Multiverse, curves_of
 from attnlab.report.page import page
@@ -88,8 +88,8 @@ def test_all_statements_at_once(built):
                     "measure 3": "noise"}
     assert list(said)[:2] == ["measure 0", "measure 1"]
     assert "robust, as claimed 1</span>" in built[0] and "noise 2</span>" in built[0]
-    assert statements(built[1] / "index.html") == "2 noise, 1 robust, 1 hangs on a factor, of 4 comparisons"
-    assert statements(built[1] / "figures" / "index.html") == ""
+    assert statements_of(built[1] / "index.html") == "2 noise, 1 robust, 1 hangs on a factor, of 4 comparisons"
+    assert statements_of(built[1] / "figures" / "index.html") == ""
 
 
 def test_it_says_all_without_its_script(built):
