@@ -17,7 +17,6 @@ from attnlab.report.contrasts import Contrast, contrasts, differences
 from attnlab.report.statements import Statement, all_statements
 from attnlab.results.conditions import Conditions
 from attnlab.stats.specification import (
-    LEAST_VALUES,
     Joint,
     clear_from,
     joint_test,
@@ -29,7 +28,6 @@ from attnlab.tables.flat import text
 
 Floats = npt.NDArray[np.float64]
 LEAST_READINGS = 8  # fewer combinations are shown as a plain matrix
-LEAST_SEEDS = LEAST_VALUES  # that the readings must share for a joint test
 
 
 class Moved(NamedTuple):
@@ -54,6 +52,12 @@ class Curves:
     joint: Joint
     shares: list[dict[str, float]]
     statements: list[Statement]
+
+    @property
+    def shared(self) -> int:
+        """How many seeds all readings have that have any."""
+        there = (~np.isnan(self.differences)).any(axis=1)
+        return int(there[there.any(axis=1)].all(axis=0).sum())
 
     def mover(self, contrast: int) -> tuple[str, float]:
         """The factor with the largest share of a contrast's variance over readings."""

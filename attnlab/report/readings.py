@@ -10,6 +10,7 @@ from attnlab.report.curve_tables import curve_csv, effects_csv, joint_csv, share
 from attnlab.report.explorer import script
 from attnlab.report.multiverse import Multiverse
 from attnlab.report.page import Section
+from attnlab.report.sentences import apart
 from attnlab.tables.files import write_bytes
 
 
@@ -34,5 +35,6 @@ def of(found: Multiverse, study: Path, target: Path) -> Page:
         drawn.save(curve.dashboard(found, curves, curve.ranked(curves)[0]), "multiverse_dashboard", target)
     drawn.save(curve.shares(found), "multiverse_shares", target)
     which, note = kept.section(study)
+    notes = [said for said in (note, apart(curves) if curves is not None else "") if said]
     return Page(told.first_screen(found), [*told.sections(found), *([which] if which else [])],
-                script() if curves is not None else "", [note] if note else [])
+                script() if curves is not None else "", notes)

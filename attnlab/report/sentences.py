@@ -39,12 +39,19 @@ def how_many(names: int, of: Curves) -> str:
     seeds, contrasts = of.differences.shape[-1], of.contrasts
     whom = list(dict.fromkeys(c.whom for c in contrasts))
     measures = len({(c.node, c.order) for c in contrasts})
-    text = (f"{names} readings of what the text leaves open, {seeds} seeds, the same in all. {len(contrasts)} "
-            f"comparisons: {measures} measures, {contrasts[0].who} against {' and '.join(whom)}.")
+    same = "the same in all" if of.shared == seeds else f"of which all readings have {of.shared}"
+    text = (f"{names} readings of what the text leaves open, {seeds} seeds, {same}. {len(contrasts)} comparisons: "
+            f"{measures} measures, {contrasts[0].who} against {' and '.join(whom)}.")
     least = 2 / of.joint.patterns if of.joint.exact else 1 / of.joint.patterns
     if least > CLEAR:
         text += f" With {seeds} seeds no p is below {least:.2g}, so nothing can be told from chance; 6 seeds can."
     return text
+
+
+def apart(of: Curves) -> str:
+    """A warning where no seed is in all readings, so that its labels cannot be exchanged in all of them; else empty."""
+    return "" if of.shared else ("no seed is in all readings, so that the joint test cannot keep how they hang "
+                                 "together: run the same seeds in all, seed=0-9")
 
 
 def _by_size(of: Curves, mine: Sequence[int]) -> list[int]:

@@ -7,7 +7,7 @@ import pytest
 
 from attnlab.report.contrasts import Contrast
 from attnlab.report.multiverse import Curves, curves_of
-from attnlab.report.sentences import sentences
+from attnlab.report.sentences import apart, how_many, sentences
 from attnlab.report.statements import Kind
 
 READINGS, SEEDS = 36, 10
@@ -95,3 +95,15 @@ def test_five_seeds_tell_nothing_from_chance():
     found = planted(3.0, seeds=5)
     assert found.statements[0].kind is Kind.NOISE
     assert "With 5 seeds no p is below 0.062" in how_many(36, found)
+
+
+def test_readings_that_share_no_seed_are_named():
+    """Half of the readings have the first five seeds, half the others; and one reading that has none is no matter."""
+    of = planted(1.5)
+    assert apart(of) == "" and f"{SEEDS} seeds, the same in all" in how_many(READINGS, of)
+    of.differences[0] = np.nan
+    assert of.shared == SEEDS
+    of.differences[1, :, 3:] = np.nan
+    assert apart(of) == "" and f"{SEEDS} seeds, of which all readings have 3" in how_many(READINGS, of)
+    of.differences[2, :, :3] = np.nan
+    assert apart(of).startswith("no seed is in all readings") and "of which all readings have 0" in how_many(2, of)

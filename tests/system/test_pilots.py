@@ -294,3 +294,16 @@ def test_killed_and_gone_on_with_is_the_same(tmp_path):
     assert len(whole) >= 5 * (3 + 12) + 2
     for name, data in whole.items():
         assert (tmp_path / "killed" / name).read_bytes() == data, name
+    pages = [page(tmp_path / outputs / "mine") for outputs in ("killed", "whole")]
+    assert pages[0] == pages[1]
+
+
+def page(study):
+    """The study's page but for its provenance, and every table beside it."""
+    from attnlab.report import build_report
+    from attnlab.report.page import PROVENANCE
+    text = build_report(study, quiet=True).read_text()
+    head, _, rest = text.partition(PROVENANCE[0])
+    tables = {file.name: file.read_bytes() for file in sorted((study / "report").glob("*.csv"))}
+    assert {"verdicts.csv", "seeds.csv", "combinations.csv"} <= set(tables)
+    return head + rest.partition(PROVENANCE[1])[2], tables
