@@ -56,8 +56,8 @@ class Curves:
     @property
     def shared(self) -> int:
         """How many seeds all readings have that have any."""
-        there = (~np.isnan(self.differences)).any(axis=1)
-        return int(there[there.any(axis=1)].all(axis=0).sum())
+        there: npt.NDArray[np.bool_] = np.any(~np.isnan(self.differences), axis=1)
+        return int(np.all(there[np.any(there, axis=1)], axis=0).sum())
 
     def mover(self, contrast: int) -> tuple[str, float]:
         """The factor with the largest share of a contrast's variance over readings."""
