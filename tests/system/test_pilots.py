@@ -299,10 +299,10 @@ def test_killed_and_gone_on_with_is_the_same(tmp_path):
 
 
 def page(study):
-    """The study's page but for its provenance, and every table beside it."""
+    """The study's page but for its provenance and where it is, and every table beside it."""
     from attnlab.report import build_report
     from attnlab.report.page import PROVENANCE
-    text = build_report(study, quiet=True).read_text()
+    text = build_report(study, quiet=True).read_text().replace(str(study.parent), "outputs")
     head, _, rest = text.partition(PROVENANCE[0])
     tables = {file.name: file.read_bytes() for file in sorted((study / "report").glob("*.csv"))}
     assert {"verdicts.csv", "seeds.csv", "combinations.csv"} <= set(tables)
