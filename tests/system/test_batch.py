@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from pathlib import Path
 
 import pytest
 
@@ -11,7 +13,9 @@ from attnlab.errors import ConfigError
 from attnlab.robot.folder import run_to_folder
 from attnlab.testing import config
 from attnlab.testing.digest import digest
+from benchmarks import batch as figures
 
+ROOT = Path(__file__).resolve().parents[2]
 SHORT = {"train_episodes": 3, "validation_episodes": 1, "max_cycles": 300}
 TIMES = {"wall_s", "cpu_s", "pid_birth"}
 
@@ -110,3 +114,17 @@ def test_a_stop_gives_back(here, tmp_path, monkeypatch):
     runs = [json.loads(file.read_text()) for file in (tmp_path / "outputs" / "main").glob("*/run.json")]
     assert runs and all(run["interrupted"] for run in runs if run["status"] == "failed")
     assert not list((tmp_path / "outputs" / "main" / ".claims").glob("[!.]*"))
+
+
+def test_the_pages_say_what_was_stored():
+    stored = json.loads(figures.RESULT.read_text())
+    for page in (ROOT / "docs" / "engine.md", ROOT / "docs" / "gym.md"):
+        text = page.read_text()
+        assert text == figures.said(text, stored) and "python benchmarks/batch.py" in text
+
+
+@pytest.mark.long
+def test_the_example_of_the_page_runs(capsys):
+    [block] = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "engine.md").read_text(), re.S)
+    exec(compile(block, "docs/engine.md", "exec"), {})
+    assert re.fullmatch(r"\d\.\d\d( \d\.\d\d){3}\n", capsys.readouterr().out)
