@@ -1,17 +1,16 @@
-"""attnlab's own entries: the whole learning loop, the sensors alone, worlds of many boxes, memory, two processes."""
+"""attnlab's own entries: whole runs and the loop alone by both engines, the sensors alone, single calls, memory."""
 
 from __future__ import annotations
 
 import time
 from collections import Counter
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from random import Random
 from typing import Any
 
-from attnlab.certify import compose
-from attnlab.loading import load_all
+from attnlab import compose
+from attnlab.robot.engines import player
 from attnlab.robot.episodes import play_run
 from attnlab.robot.plan import RunPlan
 from attnlab.simulators.base import Simulator, SimulatorContext
@@ -21,27 +20,41 @@ from attnlab.worlds.geometry import Solid
 Entry = Callable[[], tuple[int, float]]  # -> machine cycles, CPU seconds
 
 
-def config(simulator: str, train: int, validation: int, **more: Any) -> dict:
-    """The default run: AVOID, EAT, DRINK, Litman, Q-learning, softmax, in the paper's world."""
-    return {**compose("paper", 0, simulator, train, []), "validation_episodes": validation, "record": "last", **more}
+def plan(train: int, validation: int, *settings: str) -> RunPlan:
+    """A run: AVOID, EAT, DRINK, Litman, Q-learning, softmax, in the paper's world, if the settings say nothing else."""
+    return RunPlan(compose(f"train_episodes={train}", f"validation_episodes={validation}", *settings))
 
 
-def learning_loop(simulator: str, train: int, validation: int, **settings: Any) -> Entry:
+def whole(engine: str, train: int, validation: int, *settings: str) -> Entry:
     """Whole runs, tables included, without starting the process."""
-    plain = config(simulator, train, validation)
-    plain["simulator"] = {**plain["simulator"], **settings}
+    def entry() -> tuple[int, float]:
+        run = plan(train, validation, *settings)
+        started = time.process_time()
+        cycles = play_run(run, engine=engine)[1]
+        return cycles, time.process_time() - started
+    return entry
+
+
+def alone(engine: str, episodes: int) -> Entry:
+    """Training episodes on planar without a table of theirs: what a cycle costs. The robot is made before."""
+    run = plan(episodes, 0, "simulator=planar")
 
     def entry() -> tuple[int, float]:
-        experiment = RunPlan(plain)
+        simulator = run.simulator()
+        agent, exploration, cycles = run.agent(simulator), run.exploration("train"), 0
+        play, _, _ = player(engine, agent, [exploration])
         started = time.process_time()
-        cycles = play_run(experiment)[1]
+        for episode in range(episodes):
+            exploration.start(episode)
+            play(agent, exploration, run.start_pose("train", episode), True)
+            cycles += simulator.cycle
         return cycles, time.process_time() - started
     return entry
 
 
 def reads_a_cycle(train: int = 20) -> dict[str, float]:
     """How often a learning robot reads its sonars and its camera and sets its speed, a machine cycle."""
-    experiment, counts = RunPlan(config("planar", train, 5)), Counter()
+    experiment, counts = plan(train, 5, "simulator=planar"), Counter()
     simulator = experiment.simulator()
     def counting(what: str) -> Callable:
         inner = getattr(simulator, what)
@@ -94,12 +107,10 @@ def crowd(boxes: int) -> Layout:
     return Layout(side, side, (*outer_walls(side, side), *solids), (0.0, side, 0.0, side), 0.3)
 
 
-def simulator(name: str, layout: Layout | None = None, cycles: int = 1150, **settings: Any) -> Simulator:
+def simulator(name: str, layout: Layout | None = None, *settings: str, cycles: int = 1150) -> Simulator:
     """A simulator of the default run, in its world or another."""
-    experiment = RunPlan(config(name, 1, 0))
+    experiment = plan(1, 0, f"simulator={name}", *settings)
     spec, params = experiment.simulator_spec
-    for key, value in settings.items():
-        setattr(params, key, value)
     return spec.cls(params, SimulatorContext(layout or experiment.layout, experiment.reading.dt_s, cycles))
 
 
@@ -108,7 +119,7 @@ def profile_by_part() -> dict[str, float]:
     the profiler makes calls dearer than they are."""
     import cProfile
     import pstats
-    experiment = RunPlan(config("planar", 60, 20))
+    experiment = plan(60, 20, "simulator=planar")
     profile = cProfile.Profile()
     profile.runcall(play_run, experiment)
     spent: Counter = Counter()
@@ -133,35 +144,45 @@ def memory_over_episodes(episodes: int) -> dict[str, float]:
     def progress(done: int, _: int) -> None:
         if done in (episodes // 5, episodes):
             marks.append(int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6)
-    play_run(RunPlan(config("planar", episodes - 1, 1)), progress=progress)
+    play_run(plan(episodes - 1, 1, "simulator=planar"), progress=progress)
     return {"episodes": episodes, "mb_after_a_fifth": marks[0], "mb_at_the_end": marks[1]}
 
 
-def _work(seed: int) -> tuple[int, float]:
-    started = time.process_time()
-    cycles = play_run(RunPlan({**config("planar", 60, 20), "seed": seed}))[1]
-    return cycles, time.process_time() - started
+def calls() -> dict[str, Entry]:
+    """Single calls of simulators, at poses of the paper's world that are drawn once; the "cycles" are calls."""
+    def reading(made: Simulator, call: Callable[[], Any], times: int) -> Entry:
+        def entry() -> tuple[int, float]:
+            draw, poses = Random(0), 20
+            spent = 0.0
+            for _ in range(poses):
+                made.place(*made.layout.random_start(draw))
+                started = time.process_time()
+                for _ in range(times):
+                    call()
+                spent += time.process_time() - started
+            return poses * times, spent
+        return entry
 
-
-def parallel_efficiency(runs: int = 4) -> dict[str, float]:
-    """Two processes against one, after imports and compiling: speed of wall time over twice that of one, and speed a
-    CPU-second over that of one (which a machine that is busy with other work disturbs less)."""
-    wall, cpu = {}, {}
-    for processes in (1, 2):
-        with ProcessPoolExecutor(processes, initializer=_warm) as pool:
-            list(pool.map(_idle, range(processes)))
-            started = time.perf_counter()
-            done = list(pool.map(_work, range(runs)))
-            cycles = sum(n for n, _ in done)
-            wall[processes] = cycles / (time.perf_counter() - started)
-            cpu[processes] = cycles / sum(seconds for _, seconds in done)
-    return {"one": wall[1], "two": wall[2], "efficiency": wall[2] / wall[1] / 2, "efficiency_cpu": cpu[2] / cpu[1]}
-
-
-def _warm() -> None:
-    load_all()
-    play_run(RunPlan(config("planar", 1, 0)))
-
-
-def _idle(_: int) -> None:
-    time.sleep(0.5)
+    def motion(made: Simulator, times: int) -> Entry:
+        def entry() -> tuple[int, float]:
+            draw, done, spent = Random(0), 0, 0.0
+            while done < times:
+                made.place(*made.layout.random_start(draw))
+                started = time.process_time()
+                done += made.advance(0.2, 0.3, 40)[0]
+                spent += time.process_time() - started
+            return done, spent
+        return entry
+    plane, bullet = simulator("planar"), simulator("pybullet")
+    rays = simulator("pybullet", None, "simulator.camera=rays")
+    fine = simulator("pybullet", None, "simulator.camera_columns=80", "simulator.camera_rows=60")
+    whole = simulator("pybullet")
+    mirrored: Any = whole
+    mirrored._camera = type(mirrored._camera)(mirrored._p, mirrored._client, whole.camera, 15.0, False)
+    return {"sonar planar": reading(plane, plane.sonar, 400), "sonar pybullet": reading(bullet, bullet.sonar, 100),
+            "camera planar": reading(plane, plane.blobs, 400), "camera pybullet": reading(bullet, bullet.blobs, 60),
+            "camera pybullet whole image": reading(whole, whole.blobs, 60),
+            "camera pybullet 80x60": reading(fine, fine.blobs, 20),
+            "camera pybullet rays": reading(rays, rays.blobs, 60),
+            "motion planar": motion(plane, 4_000), "motion pybullet": motion(bullet, 1_000),
+            "motion pybullet wheels": motion(simulator("pybullet", None, "simulator.drive=wheels"), 80)}

@@ -15,11 +15,13 @@ from numba.extending import overload_attribute, overload_method, typeof_impl
 
 from attnlab.compiled import access
 from attnlab.compiled.kinds import OneOf, Reference, Row, by_address
+from attnlab.kernels.compile import ONLY_COMPILED
 from attnlab.paths import PACKAGE
 
 # As Python has it: a division by zero and an index that is none are errors. They end the episode, and the run is played
 # again uncompiled, which says where it was.
 OPTIONS: dict[str, Any] = {"error_model": "python", "boundscheck": True}
+INSIDE = {**OPTIONS, **ONLY_COMPILED}
 _method: Any = overload_method  # numba's own types leave jit_options out
 _attribute: Any = overload_attribute
 counterparts: dict[tuple[type, str], Callable[..., Any]] = {}  # (class, method) -> what stands for it when compiled
@@ -54,7 +56,7 @@ def class_of(source: type) -> type[Reference]:
         made: type[Reference] = type(f"{source.__name__}Reference", (Reference,), {"source": source})
         by_address(made)
         for name, method in methods(source).items():
-            _method(made, name, jit_options=OPTIONS)(_same(method))
+            _method(made, name, jit_options=INSIDE)(_same(method))
         _classes[source] = made
     return _classes[source]
 
@@ -98,9 +100,9 @@ def one_of(kinds: tuple[Reference, ...]) -> OneOf:
         for name in sorted(shared):
             arguments = list(inspect.signature(methods(kinds[0].source)[name]).parameters)[1:]
             call = f"({', '.join(arguments)})"
-            _method(cls, name, jit_options=OPTIONS)(_choosing(kinds, takes, arguments, f".{name}", call))
+            _method(cls, name, jit_options=INSIDE)(_choosing(kinds, takes, arguments, f".{name}", call))
         for name in sorted(set.intersection(*({*kind.layout} for kind in kinds))):
-            _attribute(cls, name, jit_options=OPTIONS)(_choosing(kinds, takes, [], f".{name}", ""))
+            _attribute(cls, name, jit_options=INSIDE)(_choosing(kinds, takes, [], f".{name}", ""))
         _unions[key] = cls(kinds)
     return _unions[key]
 
@@ -152,5 +154,5 @@ def _plain_function(function: FunctionType, context: Any) -> Any:
     if context.purpose is not Purpose.constant or not _is_ours(function):
         return None
     if function not in _functions:
-        _functions[function] = njit(**OPTIONS)(function)
+        _functions[function] = njit(**INSIDE)(function)
     return types.Dispatcher(_functions[function])
