@@ -37,6 +37,8 @@ class Permuted(Protocol):
 class _File:
     title: str = setting("", "of the paper or the study")
     source: str = setting("", "where it was published")
+    own: bool | None = setting(None, "are they hypotheses of one's own (supported, not reproduced)? Left out: if there "
+                                     "is no source, or it begins with attnlab")
     about: dict[str, Any] = setting({}, "settings that every run must have, e.g. {world: paper}; else no verdicts")
     roles: dict[str, Any] = setting({}, "groups of runs by the settings they share: treatment, control, ...")
     rules: Rules = setting(Rules(), "how verdicts are reached")
@@ -51,6 +53,7 @@ class Claims:
     sha256: str
     title: str
     source: str
+    own: bool
     about: dict[str, Any]
     roles: dict[str, Role]
     rules: Rules
@@ -89,7 +92,8 @@ def load_claims(name: str) -> Claims:
     load_all()
     for told_by in file.about:
         _check_setting(str(told_by), f"{where}.about")
-    found = Claims(path, hashlib.sha256(data).hexdigest(), file.title or path.stem, file.source, file.about,
+    found = Claims(path, hashlib.sha256(data).hexdigest(), file.title or path.stem, file.source,
+                   not file.source or file.source.startswith("attnlab") if file.own is None else file.own, file.about,
                    _roles(file.roles, where), file.rules, {}, {}, {})
     for key, node in file.claims.items():
         place = f"{where}.{key}"

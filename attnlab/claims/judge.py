@@ -51,7 +51,8 @@ class PartVerdict:
 @dataclass
 class Verdict:
     """The outcome of a claim. ``p`` is that of the comparison that decided, ``p_holm`` corrected for the number of
-    claims. ``worst``: the verdict at worst, where runs failed; None where none did."""
+    claims. ``worst``: the verdict at worst, where runs failed; None where none did. ``own``: a hypothesis of one's own,
+    not a paper's claim."""
     id: str
     claim: Claim
     verdict: Finding
@@ -59,6 +60,12 @@ class Verdict:
     parts: list[PartVerdict]
     p_holm: float = NAN
     worst: Finding | None = None
+    own: bool = False
+
+    @property
+    def word(self) -> str:
+        """What the verdict is called: a hypothesis of one's own is supported, not reproduced."""
+        return self.verdict.own if self.own else str(self.verdict)
 
     @property
     def lead(self) -> PartVerdict:
@@ -94,7 +101,7 @@ def judge(claims: Claims, conditions: Conditions, stratum: Mapping[str, str] | N
                  zip(claim.parts, claims.measures[key], claims.forms[key], strict=True)]
         verdicts.append(_together(key, claim, parts, claims))
     for verdict, p in zip(verdicts, holm([v.p for v in verdicts]) if verdicts else (), strict=True):
-        verdict.p_holm = float(p)
+        verdict.p_holm, verdict.own = float(p), claims.own
     return verdicts
 
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from attnlab.figures.panels import Panel, band, block_of, by_episode, grid, legend, shown, title_of_lines
+from attnlab.figures.many import crowded, multiples
+from attnlab.figures.panels import Line, Panel, band, block_of, by_episode, grid, legend, shown, title_of_lines
 from attnlab.figures.style import cut, empty, seeds_note
 
 if TYPE_CHECKING:
@@ -24,13 +25,21 @@ def one_curve(conditions: Conditions, name: str, column: str, wanted: int, unit:
     """``column`` of ``episodes`` times ``scale``, in means of ``wanted`` training episodes; ``over`` adds to a panel,
     ``unit`` is the label of the axis."""
     drawn, note = shown(conditions)
-    figure, axes = grid(max(1, len(drawn)), 3.5, sharex=True, sharey=True)
     block = block_of(conditions, wanted)
+
+    def curve(line: Line) -> tuple[np.ndarray, np.ndarray]:
+        x, values = by_episode(line.runs, "episodes", column, block)
+        return x, scale * values
+    if crowded(drawn):
+        figure, axes, more = multiples(drawn, curve, over, **style)
+        finish(figure, axes, conditions, name, block, unit, " ".join(filter(None, (note, more))), True)
+        return figure
+    figure, axes = grid(max(1, len(drawn)), 3.5, sharex=True, sharey=True)
     for ax, panel in zip(axes, drawn, strict=False):
         for line in panel.lines:
-            x, values = by_episode(line.runs, "episodes", column, block)
+            x, values = curve(line)
             if np.isfinite(values).any():
-                band(ax, x, scale * values, line, **style)
+                band(ax, x, values, line, **style)
         if over:
             over(ax, panel)
         ax.set_title(cut(panel.title, 105 // min(3, len(drawn))))
@@ -52,8 +61,8 @@ def rows_of_panels(conditions: Conditions) -> tuple[list[Panel], str]:
 
 
 def finish(figure: Figure, axes: list[Axes], conditions: Conditions, name: str, block: int, unit: str,
-           note: str) -> None:
-    """Labels, legend and heading of a figure along training episodes."""
+           note: str, named: bool = False) -> None:
+    """Labels, heading, and, where lines are not ``named`` by their panels, the legend of a figure along training."""
     from matplotlib.ticker import MaxNLocator
     figure.supylabel(unit, fontsize=9.5)
     for ax in axes:
@@ -62,6 +71,7 @@ def finish(figure: Figure, axes: list[Axes], conditions: Conditions, name: str, 
             ax.set_xlabel(f"training episodes (means of {block})" if block > 1 else "training episodes")
         if ax.lines:  # an empty panel has no ticks to speak of
             ax.xaxis.set_major_locator(MaxNLocator(integer=True, nbins="auto", steps=[1, 2, 2.5, 5, 10]))
-    legend(figure, axes, title_of_lines(conditions))
+    if not named:
+        legend(figure, axes, title_of_lines(conditions))
     under = f"{seeds_note(conditions)}\n{note}" if note else seeds_note(conditions)
     figure.suptitle(f"{name}\n{under}", x=0.01, ha="left", fontsize=9.5)

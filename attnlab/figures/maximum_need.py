@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +10,8 @@ import numpy as np
 from attnlab.figures.base import Figure
 from attnlab.figures.curves import finish, rows_of_panels
 from attnlab.figures.found import start_and_end
-from attnlab.figures.panels import band, block_of, by_episode, grid
+from attnlab.figures.many import crowded, ranked
+from attnlab.figures.panels import Line, band, block_of, by_episode, grid
 from attnlab.figures.style import cut, empty
 from attnlab.measures.needs import needs_of, units_of
 from attnlab.registry import register
@@ -30,6 +32,11 @@ class MaximumNeed(Figure):
         units = units_of(conditions)
         same = len(set(units.values())) == 1
         block, columns = block_of(conditions, 10), len(units)
+        if crowded(drawn):
+            figure, told = ranked(drawn, {need.capitalize(): partial(_most, need, block) for need in units},
+                                  "largest of an episode")
+            figure.suptitle(f"Maximum need\n{told}", x=0.01, ha="left", fontsize=9.5)
+            return figure
         figure, axes = grid(columns * max(1, len(drawn)), 3.4, columns, sharex=True, sharey=same)
         for row, panel in enumerate(drawn):
             for (need, unit), ax in zip(units.items(), axes[columns * row:], strict=False):
@@ -53,3 +60,8 @@ class MaximumNeed(Figure):
         told = [need for need in needs_of(conditions) if need != "thirst"] or ["thirst"]  # thirst goes as hunger does
         return " ".join(start_and_end(conditions, f"{need}_max", f" {units[need]} {need}", block=10, digits=0)
                         for need in told)
+
+
+def _most(need: str, block: int, line: Line) -> tuple[np.ndarray, np.ndarray]:
+    """A condition's largest need along training."""
+    return by_episode(line.runs, "episodes", f"{need}_max", block)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +10,8 @@ import numpy as np
 from attnlab.figures.base import Figure
 from attnlab.figures.curves import finish, rows_of_panels
 from attnlab.figures.found import validation
-from attnlab.figures.panels import Panel, band, block_of, by_episode, grid
+from attnlab.figures.many import crowded, ranked
+from attnlab.figures.panels import Line, Panel, band, block_of, by_episode, grid
 from attnlab.figures.style import GREY, cut, empty
 from attnlab.measures.rewards import Reward, behaviours_of
 from attnlab.registry import register
@@ -31,7 +33,8 @@ class Rewards(Figure):
     """
     title, order, place = "cumulative rewards", 70, "Fig 7"
     how = ("Thick: the extrinsic part of the reward, on which scale CR and NCR are paid alike, with the penalties of "
-           "eqs 7-9; thin: the same without them; dotted: the mixture of eq 4, with penalties, where it differs.")
+           "eqs 7-9; thin: the same without them; dotted: the mixture of eq 4, with penalties, where it differs. "
+           "More than 7 conditions are ranked by the first of these.")
 
     def draw(self, conditions: Conditions) -> Drawing:
         drawn, note = rows_of_panels(conditions)
@@ -39,6 +42,11 @@ class Rewards(Figure):
         names = list(dict.fromkeys(frame["behaviour"])) if len(frame) else []
         block = block_of(conditions, 10)
         whole = [*names, None] if names else [None]
+        if crowded(drawn):
+            figure, told = ranked(drawn, {"all" if name is None else name.upper(): partial(_paid, name, block)
+                                          for name in whole}, "UoR an episode")
+            figure.suptitle(f"Reward, extrinsic part with penalties\n{told}", x=0.01, ha="left", fontsize=9.5)
+            return figure
         columns = len(whole) if len(drawn) > 1 or len(whole) > 4 else 2
         figure, axes = grid(max(1, len(drawn)) * len(whole), 3.4 if len(drawn) > 1 else 5.4, columns, sharex=True)
         for row, panel in enumerate(drawn):
@@ -57,6 +65,14 @@ class Rewards(Figure):
         forms = {"extrinsic part with penalties ": Reward.Params(extrinsic=True),
                  "without them ": Reward.Params(extrinsic=True, penalties=False), "as mixed by eq 4 ": Reward.Params()}
         return validation(conditions, [(name, Reward(form)) for name, form in forms.items()], " UoR an episode")
+
+
+def _paid(name: str | None, block: int, line: Line) -> tuple[np.ndarray, np.ndarray]:
+    """A condition's reward along training, as it is drawn thick."""
+    behaviours = len(behaviours_of(line.runs, "train")) if name is None else 1
+    (x, extrinsic), (_, penalty) = (by_episode(line.runs, "behaviours", column, block, behaviour=name)
+                                    for column in ("reward_extrinsic", "penalty"))
+    return x, (extrinsic + penalty) * behaviours
 
 
 def _lines(ax: Axes, panel: Panel, name: str | None, block: int) -> np.ndarray:

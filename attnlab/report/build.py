@@ -15,7 +15,7 @@ from attnlab.claims.roles import Combinations, strata
 from attnlab.errors import ConfigError
 from attnlab.figures.base import FigureContext, gallery
 from attnlab.figures.style import drawing
-from attnlab.report import drawn, forest, glance, multiverse, provenance, readings, table5, toggles, verdicts
+from attnlab.report import drawn, forest, glance, multiverse, provenance, readings, seeds, table5, toggles, verdicts
 from attnlab.report.captions import load_captions
 from attnlab.report.curve_tables import combinations_csv
 from attnlab.report.hands import side_by_side
@@ -81,6 +81,8 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
                                target) if many else readings.Page(
                                    forest.first_screen(study, hiding.marks))
         shown = [drawer.shown(name, of, told) for name, of in zip(wanted, figures.answers(done), strict=True) if of]
+    if conditions.strata and not many:
+        sections.append(seeds.section(study, target))
     sections.append(provenance.commands(study, sorted(file.name for file in target.glob("*.csv"))))
     notes = [*provenance.notes(study, conditions, claims), *over.notes]
     if not conditions.strata:

@@ -43,7 +43,9 @@ class Gallery:
                     return None
                 said = figure.say(self.conditions)
                 lines = save(figure.draw(self.conditions), figure.key, self.target)
-                return Shown(figure.key, figure.heading, self.captions.get(name, ""), said, values=lines,
+                # its place in the paper stands on the pages of that paper's claims alone
+                title = figure.heading if self.captions else figure.title or name
+                return Shown(figure.key, title, self.captions.get(name, ""), said, values=lines,
                              how=figure.how)
             except Exception as cause:  # noqa: BLE001  a figure of anybody's: it is named, and the page goes on
                 return self.failed(name, describe(cause))

@@ -97,6 +97,15 @@
     };
   }
 
+  // a link into what is folded unfolds it
+  function unfold() {
+    var part = location.hash.length > 1 && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    for (var fold = part && part.closest("details"); fold; fold = fold.parentNode.closest("details")) fold.open = true;
+    if (part) part.scrollIntoView();
+  }
+  addEventListener("hashchange", unfold);
+  if (location.hash) unfold();
+
   // values: of every line of a panel that is shown, at the point nearest to the pointer
   each(document.querySelectorAll(".plot[data-values]"), function (plot) {
     var panels = JSON.parse(plot.dataset.values), img = plot.querySelector("img");

@@ -91,24 +91,28 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> st
     counts = Counter(v.verdict for v in verdicts)
     bar = "".join(f'<span class="{v.css}" style="flex: {counts[v]}">{counts[v]}</span>' for v in Finding
                   if counts[v])
-    key = "".join(f"<span>{chip(v)} {escape(v.meaning)}</span>" for v in Finding if counts[v])
+    own, called = claims.own, {v: v.own if claims.own else str(v) for v in Finding}
+    meaning = {v: v.meaning.replace("the paper's number", "the expected number") if own else v.meaning for v in Finding}
+    key = "".join(f"<span>{chip(v, called[v])} {escape(meaning[v])}</span>" for v in Finding if counts[v])
     items = []
     for verdict in Finding:
         mine = [v for v in verdicts if v.verdict == verdict]
         if mine:
             said = "; ".join(f'<a href="#claim-{escape(v.id)}">{escape(v.id)}</a> {escape(v.claim.title)}'
                              for v in mine)
-            items.append(f"<li>{chip(verdict)} {said}.</li>")
+            items.append(f"<li>{chip(verdict, called[verdict])} {said}.</li>")
     holds = sum(counts[v] for v in Finding if v.holds)
     source = f", {escape(claims.source)}" if claims.source else ""
-    number = f"{len(verdicts)} claim{'s' * (len(verdicts) > 1)}"
+    number = f"{len(verdicts)} " + ("hypothes" + ("es" if len(verdicts) > 1 else "is") if own else
+                                    "claim" + "s" * (len(verdicts) > 1))
     who = "; ".join(f"{role.label} is {', '.join(f'{name}={value}' for name, value in role.where.items())}"
                     for role in claims.roles.values())
     met = counts[Finding.REPRODUCED]
+    exact = "" if own else f", {met} of which {'is' if met == 1 else 'are'} reproduced, number and all"
     return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{number} of <cite>{escape(claims.title)}</cite>'
             f"{source}, judged by the rules of {escape(claims.path.name)}"
             f"{f' for <b>{escape(where)}</b> alone (the others: below)' if where else ''}: the claimed direction holds "
-            f"in <b>{holds}</b>, {met} of which {'is' if met == 1 else 'are'} reproduced, number and all. "
+            f"in <b>{holds}</b>{exact}. "
             f"{escape(who)}.</p>\n"
             f'<div class="bar" role="img" aria-label="{holds} of {len(verdicts)} claims hold">{bar}</div>\n'
             f'<div class="key small">{key}</div>\n<ul class="headline">{"".join(items)}</ul>')

@@ -41,7 +41,7 @@ def plate(shown: Shown, verdicts: Sequence[Verdict]) -> str:
     if shown.failed:
         return f"{head}<figcaption><p><b>Not drawn:</b> {escape(shown.failed)}</p></figcaption></figure>"
     mine = [v for v in verdicts if v.id in shown.claims]
-    chips = " ".join(f'<a href="#claim-{escape(v.id)}">{chip(v.verdict, f"{v.id} {v.verdict}")}</a>' for v in mine)
+    chips = " ".join(f'<a href="#claim-{escape(v.id)}">{chip(v.verdict, f"{v.id} {v.word}")}</a>' for v in mine)
     parts = "".join(f"<p><b>{name}:</b> {escape(text)}</p>" for name, text in (
         ("The paper says", shown.paper), ("Here", shown.found), ("How to read it", shown.how)) if text)
     values = f' data-values="{escape(shown.values)}"' if shown.values else ""

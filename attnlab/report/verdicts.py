@@ -28,8 +28,9 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
         lead = v.lead
         rows.append(
             f'<tr id="claim-{escape(v.id)}"><td><b>{escape(v.id)}</b> {escape(v.claim.title)}<br>'
-            f'<span class=small>{escape(v.claim.where)}: {escape(v.claim.says)}</span></td><td>{chip(v.verdict)}</td>'
-            f"<td>{escape(v.reason)}.{_ticks(v)}{''.join(map(_small, _asides(v)))}</td>"
+            f'<span class=small>{escape(v.claim.where)}: {escape(v.claim.says)}</span></td><td>'
+            f"{chip(v.verdict, v.word)}</td>"
+            f"<td>{escape(v.reason)}.{_ticks(v)}{_seeds(v)}{''.join(map(_small, _asides(v)))}</td>"
             f'<td class=n data-name="effect d">{_n(lead.effect, ".2f")}</td><td class=n data-name="p">{_n(v.p)}</td>'
             f'<td class=n data-name="Holm">{_n(v.p_holm)}</td>'
             f'<td class=n data-name="seeds">{lead.seeds or "-"}</td></tr>')
@@ -56,6 +57,17 @@ def _ticks(v: Verdict) -> str:
             ("✓", "holds") if p.verdict.holds else ("✗", "does not hold")
         items.append(f'<li><span role="img" aria-label="{word}">{mark}</span> {escape(p.reason)}</li>')
     return f"<ul class=ticks>{''.join(items)}</ul>"
+
+
+def _seeds(v: Verdict) -> str:
+    """What each seed contributed to the comparison that decided, from the most to the least, with links to its runs."""
+    sample = v.lead.sample
+    if len(sample) < 2:
+        return ""
+    unit = f" {v.lead.part.unit}" if v.lead.part.unit not in (None, "1") else ""
+    items = ", ".join(f'<a href="#seed-{seed}">{seed}</a>&nbsp;{_n(value, "+.3g")}' for seed, value in
+                      sorted(sample.items(), key=lambda item: (-item[1], item[0])))
+    return f"<details class=small><summary>seed by seed</summary>{items}{escape(unit)}</details>"
 
 
 def _small(text: str) -> str:
@@ -138,7 +150,7 @@ def print_table(verdicts: Sequence[Verdict], where: str = "") -> None:
     for head in ("claim", "", "verdict", "effect d", "p, Holm"):
         shown.add_column(head, justify="right" if head in ("effect d", "p, Holm") else "left")
     for v in verdicts:
-        shown.add_row(v.id, Text(v.claim.title), Text(v.verdict, style=v.verdict.style), _n(v.lead.effect, ".2f"),
+        shown.add_row(v.id, Text(v.claim.title), Text(v.word, style=v.verdict.style), _n(v.lead.effect, ".2f"),
                       _n(v.p_holm))
     console = Console()
     if not console.is_terminal:

@@ -254,3 +254,37 @@ def test_variants_crossed_with_another_sweep_stay_apart(tmp_path):
             write_study(study, 1, ("litman",), swept=swept)
     conditions = Conditions(load(study))
     assert len(set(conditions.study.named().values())) == 4
+
+
+def test_from_a_verdict_to_the_seed_to_its_replay(study, tmp_path):
+    copy = tmp_path / "seen"
+    shutil.copytree(study, copy)
+    (copy / "none-seed3" / "replay.html").write_text('<p class="lead">validation episode 3 of run x</p>')
+    page = words(copy)
+    (claim,) = re.findall(r'<tr id="claim-C18">.*?</tr>', page, re.S)
+    seeds = re.findall(r'href="#seed-(\d)">\1</a>&nbsp;([+-][\d.]+)', claim)
+    assert sorted(seed for seed, _ in seeds) == list("012345")
+    assert [float(value) for _, value in seeds] == sorted((float(value) for _, value in seeds), reverse=True)
+    assert all(page.count(f'id="seed-{seed}"') == 1 for seed in range(6))
+    assert '<a href="../none-seed3/replay.html">validation episode 3</a>' in page
+    assert page.count("python -m attnlab.replay outputs/seen/") == 12
+
+
+def test_hypotheses_of_ones_own_are_supported(study, tmp_path):
+    claims = tmp_path / "mine.yaml"
+    claims.write_text("""
+title: Mine
+roles: {cr: {label: CR, where: {curiosity: litman}}, ncr: {label: NCR, where: {curiosity: none}}}
+claims:
+  safer:
+    title: Safer
+    where: here
+    says: CR is safer.
+    parts: [{measure: {name: episode, column: safety_mean}, test: paired, role: cr, against: ncr, direction: higher,
+             unit: "1"}]
+""")
+    page = build(study, tmp_path / "out", str(claims), None, True, only=("survival",)).read_text()
+    assert "1 hypothesis of" in page and ">supported</span>" in page and \
+        "reproduced" not in page[page.index("<main>"):page.index("<script>")]
+    assert ",safer,Safer,direction only," in (tmp_path / "out" / "verdicts.csv").read_text()
+    assert "The paper says" not in page and "<b>Here:</b>" in page
