@@ -42,6 +42,19 @@ def statements_of(page: Path) -> str:
     return f"{', '.join(f'{count} {kind}' for kind, count in kinds.most_common())}, of {kinds.total()} comparisons"
 
 
+def compare(study: str | Path, other: str | Path, out: str | Path | None = None, claims: str | None = None) -> Path:
+    """Write the page that holds a study against another one: conditions of the same name side by side, with the
+    interval of every difference (paired by seed where seeds are shared and at most one thing was set otherwise),
+    verdicts, and what their settings differ in. Returns the page, ``<out>/against-<other>.html``; a CSV of the
+    numbers is beside it.
+
+    ``out``, ``claims``: as for :func:`build_report`, of the first study. Raises ConfigError if one of them is no study,
+    they are the same one, or they have no condition in common.
+    """
+    from attnlab.report.facing import build
+    return build(study, other, claims, out)
+
+
 def survival_picture(study: Study | str | Path) -> Path:
     """Draw survival against episodes (mean over seeds, 95 % band, a line a condition) to ``<study>/survival.png``."""
     from attnlab.figures.base import FigureContext

@@ -37,7 +37,7 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
     study = load(study_path)
     if not len(study.runs):
         raise ConfigError(str(study.path), "is no study: there are no runs in it", "Give a folder of outputs/")
-    claims = load_claims(claims_name or _claims_of(study))
+    claims = load_claims(claims_name or claims_of(study))
     captions = load_captions(claims.path)
     conditions = Conditions(study, claims.labels)
     others = Conditions(load(baselines)) if baselines else None
@@ -98,7 +98,7 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
     return target / "index.html"
 
 
-def _claims_of(study: Study) -> str:
+def claims_of(study: Study) -> str:
     """The claims file that most runs say they were started under."""
     marks = [study.about(run).get("claims") or {} for run in study.complete]
     names = Counter(str(mark["name"]) for mark in marks if mark.get("name"))

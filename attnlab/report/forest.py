@@ -48,7 +48,7 @@ def first_screen(study: Study, marks: Mapping[str, str] | None = None) -> str:
         return ""
     more = f" The first {MOST} of {len(rows)}; all are in conditions.csv." if len(rows) > MOST else ""
     return ('<h2 id="found">What was found</h2>\n' + "".join(f"<p>{escape(text)}</p>" for text in sentences(rows))
-            + _plot(rows[:MOST], marks or {}) + "<p class=small>Cycles lived of those there could be, in validation "
+            + picture(rows[:MOST], marks) + "<p class=small>Cycles lived of those there could be, in validation "
             f"episodes: mean over seeds with its 95 % t interval, best first; small dots are seeds.{more}</p>")
 
 
@@ -83,8 +83,9 @@ def _told(value: Interval, signed: bool = False) -> str:
     return f"{mean:{form}}{unit} [{low:{form}}, {high:{form}}]"
 
 
-def _plot(rows: Sequence[Row], marks: Mapping[str, str]) -> str:
-    """An inline picture of the rows: HTML names beside SVG lines, so that both follow the page's width and colours."""
+def picture(rows: Sequence[Row], marks: Mapping[str, str] | None = None) -> str:
+    """An inline picture of the rows (``marks``: of conditions): HTML names beside SVG lines, so that both follow the
+    page's width and colours."""
     every = [v for row in rows for v in (*row.value, *row.seeds.values()) if not np.isnan(v)]
     low, high = max(0.0, min(every)), min(100.0, max(every))
     low, high = (low - 1.0, high + 1.0) if high - low < 1.0 else (low, high)
@@ -92,7 +93,8 @@ def _plot(rows: Sequence[Row], marks: Mapping[str, str]) -> str:
 
     def x(value: float) -> float:
         return round(LEFT_PX + (min(high, max(low, value)) - low) / (high - low) * WIDTH_PX, 1)
-    body = "".join(f'<tr{_of(marks.get(row.name))}><th scope="row">{escape(row.name)}</th><td>{_line(row, x)}</td>'
+    of = marks or {}
+    body = "".join(f'<tr{_of(of.get(row.name))}><th scope="row">{escape(row.name)}</th><td>{_line(row, x)}</td>'
                    f"<td class=n>{escape(_told(row.value))}</td></tr>" for row in rows)
     scale = f'<span>{low:.0f} %</span><span>{high:.0f} %</span>'
     return ('<div class="scroll" tabindex="0" role="region" aria-label="Survival of every condition">'
