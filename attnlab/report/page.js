@@ -71,8 +71,8 @@
   // conditions: rows by data-of, lines of figures by the ids in their SVG
   var away = {}, drawings = [];
   each(document.querySelectorAll(".plot img"), function (img) {
-    var head = "data:image/svg+xml;base64,";
-    if (img.src.indexOf(head) === 0) drawings.push({ img: img, text: atob(img.src.slice(head.length)), was: img.src });
+    var parts = /^data:image\/svg\+xml(;base64)?,(.*)$/.exec(img.src);
+    if (parts) drawings.push({ img: img, text: parts[1] ? atob(parts[2]) : decodeURIComponent(parts[2]), was: img.src });
   });
   var home = document.getElementById("shown");
 
@@ -80,13 +80,13 @@
     each(document.querySelectorAll("[data-of]"), function (row) { row.hidden = !!away[row.dataset.of]; });
     var hidden = Object.keys(away).filter(function (key) { return away[key]; });
     drawings.forEach(function (of) {
-      var mine = hidden.filter(function (key) { return of.text.indexOf('id="' + key + '"') >= 0; });
+      var mine = hidden.filter(function (key) { return of.text.indexOf(key) >= 0; });
       if (!mine.length) { of.img.src = of.was; return; }
       var svg = new DOMParser().parseFromString(of.text, "image/svg+xml");
       mine.forEach(function (key) {
         each(svg.querySelectorAll('[id="' + key + '"]'), function (part) { part.setAttribute("display", "none"); });
       });
-      of.img.src = "data:image/svg+xml;base64," + btoa(new XMLSerializer().serializeToString(svg));
+      of.img.src = "data:image/svg+xml," + encodeURIComponent(new XMLSerializer().serializeToString(svg));
     });
   }
   if (home) {

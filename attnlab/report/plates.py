@@ -9,8 +9,10 @@ from html import escape
 
 from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Verdict
+from attnlab.report.slim import address
 
-SMALL = 1.6  # an SVG up to so many times the size of its PNG is shown instead: sharp, and its lines can be hidden
+MARK = b'id="of-'  # of what belongs to a condition (attnlab.figures.values.gid_of)
+MORE = 1.5  # so many times the size of the PNG, an SVG whose lines can be hidden is worth
 
 
 @dataclass
@@ -53,6 +55,7 @@ def plate(shown: Shown, verdicts: Sequence[Verdict]) -> str:
 
 
 def _picture(shown: Shown) -> str:
-    small = shown.svg and len(shown.svg) <= SMALL * len(shown.png)
-    kind, data = ("svg+xml", shown.svg) if small else ("png", shown.png)
-    return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+    """The address of its smaller picture; of its SVG, if that has lines to hide."""
+    png = f"data:image/png;base64,{base64.b64encode(shown.png).decode()}"
+    svg = address(shown.svg) if shown.svg else ""
+    return svg if svg and len(svg) <= len(png) * (MORE if MARK in shown.svg else 1) else png

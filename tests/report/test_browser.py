@@ -83,7 +83,7 @@ document.getElementById('page').onload = function () {
   ncr.click();
   told.without = point();
   told.rows = Array.from(page.querySelectorAll('.forest tbody tr')).filter(r => r.getClientRects().length).length;
-  told.redrawn = img.src !== before && atob(img.src.split(',')[1]).split('display="none"').length - 1;
+  told.redrawn = img.src !== before && decodeURIComponent(img.src).split('display="none"').length - 1;
   ncr.click();
   told.back = img.src === before;
   document.getElementById('told').textContent = JSON.stringify(told);

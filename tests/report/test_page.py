@@ -243,7 +243,7 @@ def test_the_claims_file_of_the_runs_is_the_default(tmp_path):
         about = json.loads(file.read_text())
         file.write_text(json.dumps({**about, "claims": {"name": str(rules), "sha256": "0" * 64}}))
     page = words(study)
-    assert 'id="claim-only_one"' in page and "1 claim of" in page and "another claims file" in page
+    assert 'id="claim-only_one"' in page and "1 hypothesis of" in page and "another claims file" in page
 
 
 def test_variants_crossed_with_another_sweep_stay_apart(tmp_path):
@@ -288,3 +288,16 @@ claims:
         "reproduced" not in page[page.index("<main>"):page.index("<script>")]
     assert ",safer,Safer,direction only," in (tmp_path / "out" / "verdicts.csv").read_text()
     assert "The paper says" not in page and "<b>Here:</b>" in page
+
+
+def test_pictures_are_slim_and_the_same(built):
+    """The SVG on the page has all that is seen in its file, in at most two thirds of it in base64."""
+    from attnlab.report.slim import address, slim
+    for file in sorted((built / "figures").glob("*.svg")):
+        svg = file.read_text()
+        small = slim(svg)
+        for tag in ("<path", "<use", "<g ", "<image", "clip-path="):
+            assert small.count(tag) == svg.count(tag), (file.name, tag)
+        assert len(address(file.read_bytes())) < 0.67 * 4 / 3 * len(svg.encode()), file.name
+        assert '"' not in address(file.read_bytes()) and "<!--" not in small
+    assert (built / "index.html").stat().st_size < 1_000_000
