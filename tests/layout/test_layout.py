@@ -39,14 +39,14 @@ FLOORS = (
     ("clusters",),
     ("cli", "testing", "clock"),
     ("certify", "appraise", "arena", "calibrate", "replay", "search", "gym", "fig1", "plot", "parts", "new", "api",
-     "__main__", "enjoy", "export", "index", "rerun", "retry", "tune", "watch", "work"),
-    ("batch", "render"),
+     "__main__", "enjoy", "index", "rerun", "retry", "tune", "watch", "work"),
+    ("batch", "export", "render"),
 )
 TOP = {  # modules that are no commands
     "__init__", "api", "arithmetic", "attention", "batch", "clock", "config", "console", "cycle", "equations", "errors",
     "groups", "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
 # thin modules for python -m; the others are packages with __main__
-COMMANDS = {"__main__", "enjoy", "fig1", "new", "parts", "export", "index", "rerun", "retry", "tune", "watch", "work"}
+COMMANDS = {"__main__", "enjoy", "fig1", "new", "parts", "index", "rerun", "retry", "tune", "watch", "work"}
 NO_CODE = {"plugins", "templates"}
 ROBOT = {"robot", "attention", "cycle"}
 READER = {"results", "stats", "measures", "figures", "claims", "audit", "report"}

@@ -129,7 +129,7 @@ def test_made_once_more(study, capsys):
 def test_csv_that_no_spreadsheet_runs(study, tmp_path):
     import pandas as pd
 
-    from attnlab.export import main as export
+    from attnlab.export.__main__ import main as export
     from attnlab.results.export import harmless
     assert guarded(export, [str(study), "--csv", "--out", str(tmp_path)]) == 0
     result = load(study)
