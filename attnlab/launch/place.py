@@ -41,11 +41,16 @@ def check_place(jobs: Sequence[Job]) -> None:
         if need > have:
             if _recorded(largest) * a_cycle > largest.episodes * a_row:
                 raise ConfigError("record", f"'{s.record}' of {largest.episodes} episodes a run, up to {s.max_cycles} "
-                                  f"cycles each, would need about {need / 1e9:.0f} GB of {what} {have / 1e9:.0f} GB",
-                                  "record=last")
+                                  f"cycles each, would need about {size(need)} of {what} {size(have)}", "record=last")
             setting = "train_episodes" if s.train_episodes >= s.validation_episodes else "validation_episodes"
-            raise ConfigError(setting, f"{largest.episodes} episodes a run would need about {need / 1e9:.0f} GB of "
-                              f"{what} {have / 1e9:.0f} GB", "Ask for fewer")
+            raise ConfigError(setting, f"{largest.episodes} episodes a run would need about {size(need)} of "
+                              f"{what} {size(have)}", "Ask for fewer, or make room")
+
+
+def size(n: float) -> str:
+    """So many bytes, in a unit that shows them: ``12 kB``."""
+    unit, word = next(found for found in ((1e9, "GB"), (1e6, "MB"), (1e3, "kB"), (0.0, "B")) if n >= found[0])
+    return f"{n / (unit or 1):,.0f} {word}"
 
 
 def _recorded(job: Job) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -172,6 +173,12 @@ def test_a_swept_file_is_looked_at_too(complain, tmp_path):
     (tmp_path / "plugins" / "world" / "bomb.yaml").write_text(FILES["bomb"][1])
     code, err, _ = complain("world=paper,bomb", "simulator=planar")
     assert code == 2 and "plugins/world/bomb.yaml: its anchors stand for more" in err, err
+
+
+def test_a_disk_with_no_room_left_is_told_in_a_unit_that_shows_it(complain, monkeypatch):
+    monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=1))
+    code, err, written = complain("simulator=planar", "train_episodes=20")
+    assert code == 2 and not written and re.search(r"about [1-9]\d* kB of disk, free are 1 B", err), err
 
 
 def test_little_memory(monkeypatch, tmp_path):
