@@ -12,6 +12,7 @@ from attnlab.report.page import Section, table
 from attnlab.tables.readings import FILE, TABLE, Decided, read_decided
 
 MOST = 40  # casualties on the page
+RARE = 0.2  # a level that is kept less often than this, of its even share, can say little
 
 
 def section(study: Path) -> tuple[Section | None, str]:
@@ -58,8 +59,15 @@ def _balance(decided: Decided) -> str:
 
 
 def pairs(decided: Decided) -> str:
-    """How evenly levels meet in what was kept, in two sentences."""
+    """How evenly levels are met in what was kept, in two or three sentences."""
     one, other, v = decided.confounded
-    return (f"Levels of two factors meet as often as they would if each met each evenly, within {decided.uneven:.1f} "
-            f"readings. Of all pairs of factors {one} and {other} tell most of each other (Cramer's V = {v:.2f}; 0 is "
+    return (f"{_rare(decided)}Levels of two factors meet as often as they would if each met each evenly, within "
+            f"{decided.uneven:.1f} readings. Of all pairs of factors {one} and {other} tell most of each other (Cramer's V = {v:.2f}; 0 is "
             "nothing, 1 all).")
+
+
+def _rare(decided: Decided) -> str:
+    """Levels that hardly any sound reading has: of them the study can say nothing, or little."""
+    found = [f"{factor}={level} ({count})" for factor, counts in decided.counts.items() for level, count in
+             counts.items() if count < RARE * len(decided.taken) / len(counts)]
+    return f"Hardly any sound reading has {', '.join(found)}: of these the study can say little. " if found else ""

@@ -156,3 +156,13 @@ def test_nothing_to_compare_is_said():
     found = planted()
     found.curves = None
     assert "nothing to compare" in told.first_screen(found) and len(told.sections(found)) == 1
+
+
+def test_levels_that_hardly_any_reading_has_are_named():
+    """Of ten readings with two levels each, an even share is five: one is a fifth of it, and not fewer."""
+    taken = [Tried(f"r{i}", {"speed": "a", "turn": "b" if i else "c"}, 95.0, 1, 1, taken=True) for i in range(10)]
+    counts = {"speed": {"a": 10, "b": 0}, "turn": {"b": 9, "c": 1}}
+    of = Decided("mark", "", 20, taken, counts, ("speed", "turn", 0.0), 5.0)
+    assert kept.pairs(of).startswith("Hardly any sound reading has speed=b (0): of these")
+    of.counts["speed"] = {"a": 8, "b": 2}
+    assert kept.pairs(of).startswith("Levels of two")
