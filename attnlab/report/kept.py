@@ -62,8 +62,8 @@ def pairs(decided: Decided) -> str:
     """How evenly levels are met in what was kept, in two or three sentences."""
     one, other, v = decided.confounded
     return (f"{_rare(decided)}Levels of two factors meet as often as they would if each met each evenly, within "
-            f"{decided.uneven:.1f} readings. Of all pairs of factors {one} and {other} tell most of each other (Cramer's V = {v:.2f}; 0 is "
-            "nothing, 1 all).")
+            f"{decided.uneven:.1f} readings. Of all pairs of factors {one} and {other} tell most of each other "
+            f"(Cramer's V = {v:.2f}; 0 is nothing, 1 all).")
 
 
 def _rare(decided: Decided) -> str:
