@@ -42,9 +42,16 @@ def section(folder: Path) -> list[str]:
     parts = [f"`python -m attnlab.audit --claims`: {words(pairs)} Each pair with its reason: "
              f"[{AUDIT}/pairs.csv]({AUDIT}/pairs.csv)."] if pairs else []
     if rows:
-        parts += [f"`python -m {' '.join(COMMAND)}`: {ladder(table(folder, SEARCH, 'rungs'))}",
+        tried = table(folder, SEARCH, "rungs")
+        parts += [f"`python -m attnlab.search --rungs {','.join(rungs(tried))}`: {ladder(tried)}",
                   "\n".join(f"- {said}" for said in [*answer.sentences(rows), reading(rows)]), finalists(rows)]
     return ["## Is there any reading in which the paper is true?", *parts] if parts else []
+
+
+def rungs(rows: Sequence[Row]) -> list[str]:
+    """Readings, seeds and episodes of each rung: what ``--minutes`` chose, as it can be typed to do the same again."""
+    return [f"{len(of)}:{of[0]['seeds']}:{of[0]['episodes']}" for rung in dict.fromkeys(row["rung"] for row in rows)
+            if (of := [row for row in rows if row["rung"] == rung])]
 
 
 def ladder(rows: Sequence[Row]) -> str:
