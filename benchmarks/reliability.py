@@ -3,6 +3,7 @@
     python benchmarks/kills.py --kills 200 --publish
     python benchmarks/claims.py --publish
     python benchmarks/many_runs.py --publish
+    python benchmarks/reliability.py --bytes      the same runs by both engines, on each Python that is there
     python benchmarks/reliability.py --count      count the bad inputs that the tests try, and write the page
 """
 
@@ -14,6 +15,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -32,9 +34,13 @@ BAD = {"command lines and settings": ["tests/system/test_bad_input.py"],
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", action="store_true", help="count the bad inputs anew")
-    if parser.parse_args().count:
-        RESULTS.mkdir(parents=True, exist_ok=True)
+    parser.add_argument("--bytes", action="store_true", help="compare engines, Pythons and processors anew (minutes)")
+    given = parser.parse_args()
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    if given.count:
         (RESULTS / "bad_inputs.json").write_text(json.dumps(counted(), indent=1) + "\n")
+    if given.bytes:
+        (RESULTS / "bytes.json").write_text(json.dumps(compared(), indent=1) + "\n")
     PAGE.write_text(page())
     CLUSTERS.write_text(clusters(CLUSTERS.read_text()))
     print(f"wrote {PAGE} and the table of {CLUSTERS}")
@@ -54,6 +60,20 @@ def counted() -> dict[str, int]:
     return found
 
 
+def compared() -> dict[str, Any]:
+    """Python -> engine and processor -> whether the short runs of the tests have the golden bytes."""
+    sys.path.insert(0, str(ROOT))
+    from tests.system import short_runs, test_bytes
+    found: dict[str, Any] = {"runs": len(short_runs.RUNS), "compiled": len(short_runs.COMPILED), "table": {}}
+    for version in test_bytes.VERSIONS:
+        python = test_bytes.interpreter(version)
+        if python is not None:
+            with tempfile.TemporaryDirectory() as name:
+                folder = Path(name)
+                found["table"][version] = test_bytes.table(test_bytes.installed(python, folder), folder / "cache")
+    return found
+
+
 def stored(name: str) -> dict[str, Any] | None:
     file = RESULTS / f"{name}.json"
     return json.loads(file.read_text()) if file.exists() else None
@@ -63,7 +83,8 @@ def page() -> str:
     """The whole page as Markdown."""
     lines = ["# Reliability", "", "What was done to sweeps, and what came of it. Figures are stored in "
              "benchmarks/results/reliability and put here by `python benchmarks/reliability.py`.", ""]
-    for name, section in (("kills", _kills), ("bad_inputs", _inputs), ("claims", _claims), ("many_runs", _many)):
+    for name, section in (("kills", _kills), ("bad_inputs", _inputs), ("claims", _claims), ("many_runs", _many),
+                          ("bytes", _bytes)):
         found = stored(name)
         lines += section(found) if found else []
     return "\n".join([*lines, *SUPPORT]) + "\n"
@@ -129,16 +150,22 @@ def _many(m: dict[str, Any]) -> list[str]:
             "|---|---:|---:|---:|", *rows, ""]
 
 
+def _bytes(b: dict[str, Any]) -> list[str]:
+    ways = list(next(iter(b["table"].values())))
+    rows = [f"| {version} | {' | '.join(of[way] for way in ways)} |" for version, of in b["table"].items()]
+    return ["## The same bytes", "", "    python benchmarks/reliability.py --bytes", "",
+            f"{b['runs']} short runs, some of each part, by Python, and {b['compiled']} of them compiled, on a "
+            "processor as it is and as numba's `generic`, which has no extensions; against the golden digests of the "
+            "tests.", "",
+            f"| Python | {' | '.join(ways)} |", "|---|" + "---|" * len(ways), *rows, ""]
+
+
 SUPPORT = """## What is supported
 
 Linux, Python 3.11 to 3.13; that is what the tests run on. macOS has all that the code asks for (fork server, file
 locks, signals) and is not tested. Windows has no fork server and no SIGTERM: runs start as fresh processes there, a
 stop from outside gives no claim back until it is 120 s silent, and it is not tested either. Where a process may map
 less than 4 GB (`ulimit -v`), runs start as fresh processes too; with less than 1 GB a command says so and stops.
-
-The same bytes on Python 3.11, 3.12 and 3.13, and on a processor without extensions:
-
-    python -m pytest -m long tests/system/test_bytes.py
 """.splitlines()
 
 

@@ -23,3 +23,9 @@ def test_nothing_was_lost_and_nothing_done_twice():
         pytest.skip("python benchmarks/kills.py --publish")
     assert kills["differing_tables"] == kills["completed_twice"] == kills["unfinished_sweeps"] == 0
     assert kills["kills"] > 0 and kills["tables"] > 0
+
+
+def test_no_byte_differs():
+    table = reliability.stored("bytes")["table"]
+    assert list(table) == ["3.11", "3.12", "3.13"]
+    assert {said for of in table.values() for said in of.values()} == {"the same"}

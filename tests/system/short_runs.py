@@ -1,4 +1,5 @@
-"""Short planar runs, some of each part, and their digests: ``python short_runs.py`` prints them as JSON on any Python.
+"""Short planar runs, some of each part, and their digests: ``python short_runs.py`` prints them as JSON on any Python,
+``python short_runs.py --compiled`` those of a few by the compiled engine.
 
 ``python short_runs.py --write`` makes them the golden ones: do that when a change is meant to change numbers, never
 otherwise.
@@ -39,16 +40,18 @@ RUNS = {
     "behaviours=avoid,wander,rest": config(behaviours=("avoid", "wander", "rest"), max_cycles=500),
     "simulator=scripted": config(simulator="scripted", behaviours=("give",), needs="energy_only"),
 }
+COMPILED = ("paper", "curiosity=none", "reading=clipped", "world=places")  # two compositions, each compiled once
 
 
-def digests() -> dict[str, str]:
+def digests(engine: str = "python") -> dict[str, str]:
     from attnlab.robot.episodes import play_run
     from attnlab.robot.plan import RunPlan
-    return {name: digest(play_run(RunPlan(settings))[0]) for name, settings in RUNS.items()}
+    return {name: digest(play_run(RunPlan(RUNS[name]), engine=engine)[0])
+            for name in (RUNS if engine == "python" else COMPILED)}
 
 
 if __name__ == "__main__":
-    text = json.dumps(digests(), indent=1) + "\n"
+    text = json.dumps(digests("compiled" if "--compiled" in sys.argv else "python"), indent=1) + "\n"
     if sys.argv[1:] == ["--write"]:
         GOLDEN.write_text(text)
     print(text, end="")

@@ -8,7 +8,6 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
@@ -17,6 +16,7 @@ import pytest
 from tests.system import short_runs
 
 ROOT = Path(__file__).resolve().parents[2]
+VERSIONS = ("3.11", "3.12", "3.13")
 GOLDEN = json.loads(short_runs.GOLDEN.read_text())
 RUN_BY = ("arithmetic", "equations", "streams", "worlds", "needs", "exploration", "fusion", "simulators", "learners",
           "behaviours", "curiosity", "penalty", "attention", "cycle", "probes", "robot", "kernels")
@@ -46,17 +46,25 @@ def test_nothing_that_runs_a_robot_uses_what_differs():
     assert files and not found
 
 
-def digests(python: str, **variables: str) -> dict[str, str]:
-    done = subprocess.run([python, short_runs.__file__], capture_output=True, text=True,
+def digests(python: str, *arguments: str, **variables: str) -> dict[str, str]:
+    done = subprocess.run([python, short_runs.__file__, *arguments], capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": str(ROOT), **variables}, timeout=600)
     assert done.returncode == 0, done.stderr[-2000:]
     found: dict[str, str] = json.loads(done.stdout)
     return found
 
 
-@pytest.mark.long
-def test_a_processor_without_extensions():
-    assert digests(sys.executable, NUMBA_CPU_NAME="generic") == GOLDEN
+def table(python: str, cache: Path) -> dict[str, str]:
+    """Engine and processor -> "the same", or the runs that differ from the golden ones."""
+    found = {}
+    for engine, golden in (("python", GOLDEN), ("compiled", {name: GOLDEN[name] for name in short_runs.COMPILED})):
+        for processor in ("native", "generic"):
+            chosen = {} if processor == "native" else {"NUMBA_CPU_NAME": processor}
+            arguments = ["--compiled"] if engine == "compiled" else []
+            got = digests(python, *arguments, NUMBA_CACHE_DIR=str(cache), **chosen)
+            differ = sorted(name for name in golden.keys() | got.keys() if golden.get(name) != got.get(name))
+            found[f"{engine}, {processor}"] = ", ".join(differ) or "the same"
+    return found
 
 
 def interpreter(version: str) -> str | None:
@@ -70,16 +78,20 @@ def interpreter(version: str) -> str | None:
     return None
 
 
+def installed(python: str, folder: Path) -> str:
+    """A Python with all that attnlab needs but pybullet, which takes minutes to compile where it is not ready-made."""
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    subprocess.run([python, "-m", "venv", str(folder / "env")], check=True)
+    mine = str(folder / "env/bin/python")
+    subprocess.run([mine, "-m", "pip", "install", "-q", "-c", str(ROOT / "constraints.txt"),
+                    *(name for name in needed if not name.startswith("pybullet"))], check=True)
+    return mine
+
+
 @pytest.mark.long
-@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13"])
-def test_another_python(tmp_path, version):
-    """All that attnlab needs but pybullet, which takes minutes to compile where it is not ready-made."""
+@pytest.mark.parametrize("version", VERSIONS)
+def test_engines_on_every_python_and_processor(tmp_path, version):
     python = interpreter(version)
     if python is None:
         pytest.skip(f"no Python {version} on this machine")
-    needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
-    subprocess.run([python, "-m", "venv", str(tmp_path / "env")], check=True)
-    mine = str(tmp_path / "env/bin/python")
-    subprocess.run([mine, "-m", "pip", "install", "-q", "-c", str(ROOT / "constraints.txt"),
-                    *(name for name in needed if not name.startswith("pybullet"))], check=True)
-    assert digests(mine) == GOLDEN
+    assert set(table(installed(python, tmp_path), tmp_path / "cache").values()) == {"the same"}
