@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from attnlab.api import Tables
 from attnlab.errors import ConfigError
 from attnlab.launch import engines
+from attnlab.launch.expand import shown
 from attnlab.launch.jobs import Job, check_different, condition_of, make_job
 from attnlab.loading import load_all
 from attnlab.robot.folder import run_to_folder
@@ -61,17 +62,12 @@ def _jobs(configs: Sequence[Mapping[str, Any]], folder: Path) -> list[Job]:
     swept = [name for name in sorted(set().union(*flat)) if len({text(one.get(name)) for one in flat}) > 1]
     jobs = []
     for plan, settings in zip(plans, flat, strict=True):
-        of = {name: _plain(settings.get(name)) for name in swept}
+        of = {name: shown(settings.get(name)) for name in swept}
         jobs.append(make_job(plan, [], of, swept, condition_of(plan.config, of)))
         jobs[-1].folder = folder / jobs[-1].folder.name
     _check_one_composition(jobs)
     engines.prepare(jobs)
     return jobs
-
-
-def _plain(value: Any) -> Any:
-    """A setting as a table's column may hold it."""
-    return value if isinstance(value, (int, float, str)) else str(value)
 
 
 def _check_one_composition(jobs: Sequence[Job]) -> None:

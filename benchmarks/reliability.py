@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
 RESULTS = ROOT / "benchmarks" / "results" / "reliability"
 PAGE, CLUSTERS = ROOT / "docs" / "reliability.md", ROOT / "docs" / "clusters.md"
 BEGIN, END = "<!-- many runs: by python benchmarks/reliability.py -->\n", "<!-- end -->"
@@ -54,7 +55,6 @@ def counted() -> dict[str, int]:
         done = subprocess.run([sys.executable, "-m", "pytest", "--collect-only", "-q", *files], cwd=ROOT, text=True,
                               capture_output=True, env={**os.environ, "PYTHONPATH": str(ROOT)})
         found[about] = Counter(bool(re.match(r"tests/.+::", line)) for line in done.stdout.splitlines())[True]
-    sys.path.insert(0, str(ROOT))
     from tests.results.test_hostile_folders import FIELDS, VALUES, WHOLE
     found["results folders"] += len(FIELDS) * len(VALUES) + len(WHOLE) - 1  # one test tries them all
     return found
@@ -62,7 +62,6 @@ def counted() -> dict[str, int]:
 
 def compared() -> dict[str, Any]:
     """Python -> engine and processor -> whether the short runs of the tests have the golden bytes."""
-    sys.path.insert(0, str(ROOT))
     from tests.system import short_runs, test_bytes
     found: dict[str, Any] = {"runs": len(short_runs.RUNS), "compiled": len(short_runs.COMPILED), "table": {}}
     for version in test_bytes.VERSIONS:

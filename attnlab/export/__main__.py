@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -58,6 +57,7 @@ def _episode(name: str, given: Any) -> int:
     from attnlab.loading import load_all
     from attnlab.replay.again import live_again
     from attnlab.replay.track import choose, open_run, track_of
+    from attnlab.tables.files import whole
     load_all()
     run = open_run(Path(given.study))
     phase, episode, cycles = choose(run, given.phase, given.episode)
@@ -73,15 +73,12 @@ def _episode(name: str, given: Any) -> int:
         from attnlab.export.to_mcap import write
     else:
         from attnlab.export.to_rerun import write
-    temporary = out.with_name(f".{out.stem}.{os.getpid()}{out.suffix}")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
-        write(track, run.plan.layout, temporary)
-        temporary.replace(out)
+        with whole(out) as temporary:
+            write(track, run.plan.layout, temporary)
     except OSError as cause:
         raise ConfigError("--out", f"{out} cannot be written ({cause.strerror or cause})") from None
-    finally:
-        temporary.unlink(missing_ok=True)
     print(out)
     return 0
 

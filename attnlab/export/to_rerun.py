@@ -73,9 +73,8 @@ def _scalars(rr: Any, stream: Any, entity: str, when: Any, cycles: Sequence[int]
 
 def _outline(solid: Solid) -> list[tuple[float, float]]:
     """The corners of a box, the first again at the end (m)."""
-    c, s = cos(solid.yaw_rad), sin(solid.yaw_rad)
-    corners = [(a * solid.length_m / 2, b * solid.width_m / 2) for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))]
-    return [(solid.x_m + c * x - s * y, solid.y_m + s * x + c * y) for x, y in corners]
+    first, *others = solid.corners()
+    return [first, *others, first]
 
 
 def _beams(pose: Sequence[float], fan: Sequence[float]) -> list[list[tuple[float, float]]]:

@@ -74,7 +74,7 @@ def ranked(drawn: Sequence[Panel], columns: dict[str, Curve], unit: str) -> tupl
     if not order:
         empty(axes[0, 0], "no complete runs")
     axes[0, -1].spines["left"].set_color(GREY)
-    more = f", the first {MOST_SMALL} of {len(pairs)}" if len(pairs) > MOST_SMALL else ""
+    more = f", the best {MOST_SMALL} of {len(pairs)}" if len(pairs) > MOST_SMALL else ""
     return figure, f"Means over the last fifth of training with 95 % t intervals over seeds{more}."
 
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from attnlab.errors import ConfigError, describe
+from attnlab.errors import ConfigError
 from attnlab.gym.envs import SEEDS, AttentionEnv, Numbers
 from attnlab.gym.play import Play
 from attnlab.robot.engines import never
@@ -30,15 +30,11 @@ def attention(num_envs: int = 1, behaviour: str = "avoid", overrides: Sequence[s
     if asked == "python":
         why = "engine=python"
     if not why:
+        from attnlab.compiled.engine import Uncompilable
         try:
-            from attnlab.compiled.engine import Uncompilable
-        except (ImportError, AttributeError) as cause:
-            why = f"numba is missing or too old ({describe(cause)})"
-        else:
-            try:
-                return AttentionVectorEnv(one, num_envs)
-            except Uncompilable as cause:
-                why = str(cause)
+            return AttentionVectorEnv(one, num_envs)
+        except Uncompilable as cause:
+            why = str(cause)
     if asked == "compiled":
         raise ConfigError("engine=compiled", f"cannot be: {why}", "engine=auto runs interpreted what does not compile")
     found: Any = SyncVectorEnv([partial(AttentionEnv, behaviour, overrides, penalty, render_mode)

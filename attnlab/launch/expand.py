@@ -42,7 +42,7 @@ class Expansion:
                 values = {key: _value(overrides, key) for key in self.swept if key != "seed" and key not in together}
                 named = list(values)
                 if variant is not None:
-                    values.update({"variant": variant, **{key: _shown(value) for key, value in together.items()}})
+                    values.update({"variant": variant, **{key: shown(value) for key, value in together.items()}})
                     named.append("variant")
                 jobs += _of_condition(pinned(self.composer.config(overrides)), overrides, values, named, seeds)
         check_different(jobs)
@@ -103,8 +103,9 @@ def _value(overrides: Sequence[str], key: str) -> Any:
     import yaml
     text = next(o.partition("=")[2] for o in overrides if _key(o) == key)
     value = yaml.safe_load(text) if text[:1] not in "[{" else text
-    return _shown(value) if value is not None else text
+    return shown(value) if value is not None else text
 
 
-def _shown(value: Any) -> Any:
+def shown(value: Any) -> Any:
+    """A setting as a table's column may hold it."""
     return value if isinstance(value, (int, float, bool, str)) else str(value)

@@ -16,7 +16,6 @@ from hydra.plugins.launcher import Launcher
 from hydra.types import HydraContext, TaskFunction
 from omegaconf import DictConfig, OmegaConf
 
-from attnlab.arithmetic import total
 from attnlab.config import TuneSettings
 from attnlab.errors import ConfigError
 from attnlab.launch.compose import Composer
@@ -26,6 +25,7 @@ from attnlab.launch.jobs import Job, check_once
 from attnlab.launch.place import check_place
 from attnlab.launch.worth import goal_of, worth
 from attnlab.settings import build
+from attnlab.tables.numbers import mean_of
 from attnlab.tables.ranges import seeds
 
 SWEEPER = "hydra/sweeper="
@@ -81,7 +81,7 @@ class StudyLauncher(Launcher):
             answer = JobReturn(overrides=list(overrides), cfg=OmegaConf.create({**of[0].config}),
                                working_dir=str(self.folder), task_name="attnlab")
             if values:
-                answer.status, answer.return_value = JobStatus.COMPLETED, total(values.values()) / len(values)
+                answer.status, answer.return_value = JobStatus.COMPLETED, mean_of(values.values())
             else:
                 type(self).failed += 1
                 answer.status, answer.return_value = JobStatus.FAILED, RuntimeError(why)

@@ -130,8 +130,7 @@ def _check_size(overrides: Iterable[Override]) -> None:
             count *= max(1, sum(1 for _ in override.sweep_string_iterator()))
         elif override.is_sweep_override():
             raise ConfigError(override.get_key_element(), "interval(...) cannot be swept over all its values",
-                              "List them: a,b,c; or look for the best: "
-                              "tune.goal=survival")
+                              "List them: a,b,c; or look for the best: tune.goal=survival")
     if count > MOST_RUNS:
         raise ConfigError("-m", f"this sweep has {count:,} runs, more than {MOST_RUNS:,}")
 

@@ -16,7 +16,6 @@ import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from attnlab.arithmetic import total
 from attnlab.config import TuneSettings, digits_of, that_count
 from attnlab.errors import ConfigError
 from attnlab.launch.drive import as_typed, complete
@@ -28,6 +27,7 @@ from attnlab.launch.worth import goal_of, worth
 from attnlab.report.tuned import Seen, Trial, Tuned, page, said, shown
 from attnlab.tables.files import write_bytes
 from attnlab.tables.flat import dig
+from attnlab.tables.numbers import mean_of
 from attnlab.tables.ranges import compact
 
 JOURNAL, TABLE, PAGE = "tune.journal", "tune.csv", "tune.html"
@@ -89,7 +89,7 @@ class Tuning:
             trial = study.ask(distributions)
             point = self._point(trial.params)
             values, why = self._play(point)
-            value = total(values.values()) / len(values) if values else None
+            value = mean_of(values.values())
             trial.set_user_attr("seeds", {str(seed): found for seed, found in values.items()})
             trial.set_user_attr("why", why)
             study.tell(trial.number, value, state=states.FAIL if value is None else states.COMPLETE,

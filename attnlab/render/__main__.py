@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 from itertools import islice
@@ -15,6 +14,7 @@ from attnlab.loading import load_all
 from attnlab.render.film import frames, write_gif, write_mp4
 from attnlab.replay.again import live_again
 from attnlab.replay.track import choose, open_run, track_of
+from attnlab.tables.files import whole
 
 
 def main(argv: Sequence[str]) -> int:
@@ -54,15 +54,11 @@ def main(argv: Sequence[str]) -> int:
     pictures = islice(frames(track, run.plan.layout, fov_rad, given.every), skip, wanted)
     seconds = track["dt"] * given.every / given.speed  # of a picture
     out.parent.mkdir(parents=True, exist_ok=True)
-    temporary = out.with_name(f".{out.stem}.{os.getpid()}{out.suffix}")
-    try:
+    with whole(out) as temporary:
         if out.suffix == ".gif":
             write_gif(list(pictures), temporary, max(20, round(1000 * seconds)))
         else:
             write_mp4(pictures, temporary, 1 / seconds)
-        temporary.replace(out)
-    finally:
-        temporary.unlink(missing_ok=True)
     print(out)
     return 0
 

@@ -37,7 +37,7 @@ def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: 
              *((s.key, s.title) for s in sections), ("provenance", "Provenance")]
     parts = [
         f'<p class="lead">{escape(lead)}</p>', notes_block(notes),
-        _nav(links), shown, found, *map(_section, first), headline(claims, verdicts, where),
+        nav(links), shown, found, *map(_section, first), headline(claims, verdicts, where),
         '<h2 id="figures">Figures</h2>' if figures else "",
         *(plate(figure, verdicts) for figure in figures),
         *map(_section, sections),
@@ -47,11 +47,12 @@ def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: 
 
 def plain_page(title: str, lead: str, found: str, sections: Sequence[Section]) -> str:
     """A page of the same look: ``found`` is HTML, the sections follow it."""
-    links = _nav([(s.key, s.title) for s in sections]) if sections else ""
+    links = nav([(s.key, s.title) for s in sections]) if sections else ""
     return document(title, [f'<p class="lead">{escape(lead)}</p>', links, found, *map(_section, sections)])
 
 
-def _nav(links: Sequence[tuple[str, str]]) -> str:
+def nav(links: Sequence[tuple[str, str]]) -> str:
+    """Links to the parts of a page."""
     return "<nav>" + " ".join(f'<a href="#{key}">{escape(name)}</a>' for key, name in links) + "</nav>"
 
 

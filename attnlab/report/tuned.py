@@ -10,7 +10,7 @@ from pathlib import Path
 from statistics import median, stdev
 
 from attnlab import __version__
-from attnlab.report.page import PROVENANCE, document, notes_block, table
+from attnlab.report.page import PROVENANCE, document, nav, notes_block, table
 
 WIDTH, HEIGHT, EDGE = 1000, 300, 20  # of a plot, in its own units: it is as wide as its place
 FEW = 10  # trials that say little of a space
@@ -96,7 +96,7 @@ def page(found: Tuned) -> str:
     links = [("found", "The best"), ("history", "Over trials"), ("settings", "Settings"), ("trials", "All trials"),
              ("provenance", "Provenance")]
     parts = [f'<p class="lead">{escape(_lead(found, len(good)))}</p>', notes_block(_notes(found, len(good))),
-             "<nav>" + " ".join(f'<a href="#{key}">{name}</a>' for key, name in links) + "</nav>", _best(found, good)]
+             nav(links), _best(found, good)]
     if good:
         parts += [_history(found, good), _settings(found, good)]
     parts += [_table(found), PROVENANCE[0], '<h2 id="provenance">Provenance</h2>'

@@ -39,12 +39,8 @@ def choose(plan: RunPlan, cycles: int | None = None, announce: Callable[[], None
         return Choice("python", f"it is short: {total:,} cycles at most")
     why = never(plan)
     if not why:
-        try:
-            from attnlab.compiled.engine import Uncompilable
-            from attnlab.kernels.compile import keeps
-        except (ImportError, AttributeError) as cause:
-            why = f"numba is missing or too old ({describe(cause)})"
-    if not why:
+        from attnlab.compiled.engine import Uncompilable
+        from attnlab.kernels.compile import keeps
         try:
             if asked == "auto" and not keeps():
                 return Choice("python", "numba's cache folder cannot be written: each run would compile for itself")
@@ -129,6 +125,11 @@ def never(plan: RunPlan) -> str:
         why = _interpreted("behaviours", node)
         if why:
             return f"behaviours.{name} runs as Python: {why}"
+    try:
+        import attnlab.compiled.engine
+        import attnlab.kernels.compile  # noqa: F401
+    except (ImportError, AttributeError) as cause:
+        return f"numba is missing or too old ({describe(cause)})"
     return ""
 
 

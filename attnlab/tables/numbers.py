@@ -26,7 +26,7 @@ def numbers_of(tables: Mapping[str, Mapping[str, Sequence[Any]]]) -> dict[str, A
     half = (max(trained, default=0) + 1) / 2
 
     def mean(column: str, of: Sequence[bool]) -> float | None:
-        return _mean(v for v, chosen in zip(episodes[column], of, strict=True) if chosen)
+        return mean_of(v for v, chosen in zip(episodes[column], of, strict=True) if chosen)
     early = [phase == "train" and n < half for n, phase in zip(episodes["episode"], phases, strict=True)]
     late = [phase == "train" and n >= half for n, phase in zip(episodes["episode"], phases, strict=True)]
     those = [phase == shown for phase in phases]
@@ -34,16 +34,17 @@ def numbers_of(tables: Mapping[str, Mapping[str, Sequence[Any]]]) -> dict[str, A
     return {
         "early": mean("survival", early), "late": mean("survival", late),
         "validation": mean("survival", [phase == "validation" for phase in phases]),
-        "crashed": _mean(float(death == "crash") for death, chosen in zip(episodes["death"], those, strict=True)
-                         if chosen),
+        "crashed": mean_of(float(death == "crash") for death, chosen in zip(episodes["death"], those, strict=True)
+                           if chosen),
         "needs": {need: mean(f"{need}_mean", those) for need in needs_in(episodes)},
         "energy": mean("energy_mean", those), "safety": mean("safety_mean", those),
-        "activations": {name: _mean(v for v, phase, of in zip(acts["activations"], acts["phase"], acts["behaviour"],
-                                                              strict=True) if of == name and phase == shown)
+        "activations": {name: mean_of(v for v, phase, of in zip(acts["activations"], acts["phase"], acts["behaviour"],
+                                                                strict=True) if of == name and phase == shown)
                         for name in names}}
 
 
-def _mean(values: Iterable[Any]) -> float | None:
+def mean_of(values: Iterable[Any]) -> float | None:
+    """The mean of what is there, summed from left to right; None of nothing."""
     found = [float(value) for value in values if value is not None]
     return total(found) / len(found) if found else None
 
