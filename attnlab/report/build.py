@@ -15,12 +15,24 @@ from attnlab.claims.roles import Combinations, strata
 from attnlab.errors import ConfigError
 from attnlab.figures.base import FigureContext, gallery
 from attnlab.figures.style import drawing
-from attnlab.report import drawn, forest, glance, multiverse, provenance, readings, seeds, table5, toggles, verdicts
+from attnlab.report import (
+    drawn,
+    forest,
+    glance,
+    multiverse,
+    provenance,
+    readings,
+    seeds,
+    spread,
+    table5,
+    toggles,
+    verdicts,
+)
 from attnlab.report.captions import load_captions
 from attnlab.report.curve_tables import combinations_csv
 from attnlab.report.hands import side_by_side
 from attnlab.report.multiverse import LEAST_READINGS
-from attnlab.report.page import Section, nothing_testable, page, table
+from attnlab.report.page import Section, headline, nothing_testable, page, table
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study, load
 from attnlab.tables.files import write_bytes
@@ -76,10 +88,11 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
             warnings.simplefilter("ignore")  # as figures are drawn
             hiding = toggles.of_study(conditions)
             tables = _tables(claims, conditions, combinations, target)
-            sections = _sections(study, judged, combinations, telling, tables, target, many, hiding)
-            over = readings.of(multiverse.analyse(claims, conditions, combinations, judged, measured), study.path,
-                               target) if many else readings.Page(
-                                   forest.first_screen(study, hiding.marks))
+            of_all = multiverse.analyse(claims, conditions, combinations, judged, measured) if many else None
+            sections = _sections(study, judged, combinations, telling, tables, target, hiding) if of_all is None else \
+                _of_readings(claims, conditions, combinations, judged, target)
+            over = readings.Page(forest.first_screen(study, hiding.marks)) if of_all is None else \
+                readings.of(of_all, study.path, target)
         shown = [drawer.shown(name, of, told) for name, of in zip(wanted, figures.answers(done), strict=True) if of]
     if conditions.strata and not many:
         sections.append(seeds.section(study, target))
@@ -88,12 +101,17 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
     if not conditions.strata:
         notes.insert(0, "there is no complete run in this study, so there is nothing to draw or to judge")
     notes += [f"the figure '{figure.title}' is not drawn: {figure.failed}" for figure in shown if figure.failed]
-    text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, claims, first,
-                telling if telling is not None and len(judged) > 1 else "", shown,
+    alone = len(judged) > 1
+    said = spread.headline(of_all, claims) if of_all is not None else \
+        headline(claims, first, telling if telling is not None and alone else "", len(judged) - 1)
+    text = page(f"{study.path.resolve().name}: what was found", _lead(study, conditions), notes, said, first, shown,
                 sections, provenance.block(study, conditions, claims), over.first_screen, over.sections, over.script,
-                hiding.html())
+                hiding.html() if of_all is None else "")
     write_bytes(target / "index.html", text.encode())
-    if not quiet:
+    if not quiet and of_all is not None:
+        spread.print_table(of_all)
+        _print(notes, None, [], None, target)
+    elif not quiet:
         _print(notes, next((rows for name, rows in tables if name == telling), None), first, telling, target)
     return target / "index.html"
 
@@ -124,31 +142,44 @@ def _telling(judged: dict[str, list[Verdict]]) -> str | None:
 
 
 def _sections(study: Study, judged: dict[str, list[Verdict]], combinations: Combinations, telling: str | None,
-              tables: list[tuple[str, list[table5.Row]]], target: Path, many: bool, hiding: toggles.Toggles
-              ) -> list[Section]:
+              tables: list[tuple[str, list[table5.Row]]], target: Path, hiding: toggles.Toggles) -> list[Section]:
     """Conditions, Table 5 and claims, in the page and as CSV; what a study of other things cannot say is left out of
-    the page, and of ``many`` readings the tables of single ones."""
-    write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
-    write_bytes(target / "seeds.csv", verdicts.seeds_csv(judged))
+    the page."""
+    _write(combinations, judged, target)
     sections = []
     if judged:
         section, csv = glance.section(study, hiding.marks)
         write_bytes(target / "conditions.csv", csv)
         sections.append(section)
-    if tables and telling is not None and not many:
+    if tables and telling is not None:
         html = "".join((f"<h3>{_escape(name)}</h3>" if name else "") + _table5(rows) for name, rows in tables[:4])
         html += ("<p class=small>Here: validation episodes that were survived, as all of the paper's were (its "
                  "deviations hold no penalty): mean over seeds ± deviation over the episodes of a seed, as the paper's "
                  "is over its episodes; in brackets that between seeds' means. All episodes: the others too, penalties "
                  "of eqs 7-9 in the rewards. † The paper's text does not tell which of two cells this is.</p>")
         sections.append(Section("table5", "Table 5, side by side", html))
+    if len(judged) > 1 and telling is not None:
+        sections.append(verdicts.matrix(judged))
+    if telling is not None:
+        sections.append(verdicts.section(judged[telling], telling if len(judged) > 1 else ""))
+    return sections
+
+
+def _of_readings(claims: Claims, conditions: Conditions, combinations: Combinations, judged: dict[str, list[Verdict]],
+                 target: Path) -> list[Section]:
+    """What stands there of many readings: no table of a single one."""
+    _write(combinations, judged, target)
+    section, csv = spread.conditions(claims, conditions, combinations)
+    write_bytes(target / "conditions.csv", csv)
+    return [section]
+
+
+def _write(combinations: Combinations, judged: dict[str, list[Verdict]], target: Path) -> None:
+    """The verdicts as CSV."""
+    write_bytes(target / "verdicts.csv", verdicts.as_csv(judged))
+    write_bytes(target / "seeds.csv", verdicts.seeds_csv(judged))
     if len(judged) > 1:
         write_bytes(target / "combinations.csv", combinations_csv(combinations, judged))
-        if telling is not None and not many:
-            sections.append(verdicts.matrix(judged))
-    if telling is not None:
-        sections.append(verdicts.section(judged[telling], telling))
-    return sections
 
 
 def _escape(text: str) -> str:

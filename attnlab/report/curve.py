@@ -80,7 +80,7 @@ def dashboard(found: Multiverse, of: Curves, m: int) -> Figure:
 def shares(found: Multiverse) -> Figure:
     """For each claim the share of readings in which it holds, and in which it is reproduced, number and all."""
     import matplotlib.pyplot as plt
-    n = len(found.ids)
+    n = len(found.claims)
     figure, ax = plt.subplots(figsize=(WIDTH_IN, 1.1 + 0.27 * n))
     for row in range(n):
         value, testable = found.share(row)
@@ -90,8 +90,9 @@ def shares(found: Multiverse) -> Figure:
         ax.barh(row, 100 * value, color="#56b4e9", height=0.68,
                 label=None if ax.patches else "claimed direction clear")
         exact = 100 * found.reproduced[row].sum() / testable
-        ax.plot(exact, row, "D", color="#00674d", ms=5, label=None if ax.lines else "reproduced, number and all")
-    ax.set_yticks(range(n), [cut(f"{i}  {t}", 62) for i, t in zip(found.ids, found.titles, strict=True)])
+        ax.plot(exact, row, "D", color="#00674d", ms=5, label=None if ax.lines else
+                ("supported" if found.own else "reproduced") + ", number and all")
+    ax.set_yticks(range(n), [cut(f"{i}  {claim.title}", 62) for i, claim in found.claims.items()])
     ax.invert_yaxis()
     ax.set_xlim(0, 103)
     ax.set_xlabel(f"% of the readings that can test the claim ({len(found.names)} at most)")

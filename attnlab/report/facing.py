@@ -111,7 +111,7 @@ def _signed(of: Compared) -> str:
 
 
 def _verdicts(facing: Facing, claims: Claims) -> Section:
-    judged = [_judge(claims, study) for study in (facing.one, facing.other)]
+    names, judged = zip(*(_judge(claims, study) for study in (facing.one, facing.other)), strict=True)
     if all(nothing_testable(of) for of in judged):
         return Section("verdicts", "Verdicts", f"<p>No claim of <cite>{escape(claims.title)}</cite> can be tested in "
                        "either.</p>")
@@ -119,19 +119,24 @@ def _verdicts(facing: Facing, claims: Claims) -> Section:
     rows = "".join(f"<tr><td><b>{escape(a.id)}</b> {escape(a.claim.title)}</td><td>{chip(a.verdict, a.word)}</td>"
                    f"<td>{chip(b.verdict, b.word)}</td><td>{'same' if a.verdict == b.verdict else 'differs'}</td></tr>"
                    for a, b in zip(*judged, strict=True))
+    chosen = "".join(f" {escape(study.name)} is judged for {escape(name)}, the first combination of its settings in "
+                     "which a claim can be tested."
+                     for study, name in zip((facing.one, facing.other), names, strict=True) if name)
     heads = "".join(f'<th scope="col">{escape(name)}</th>'
                     for name in ("claim", facing.one.name, facing.other.name, "verdict"))
     return Section("verdicts", "Verdicts side by side", (
-        f"<p>{same} of {len(judged[0])} verdicts on <cite>{escape(claims.title)}</cite> are the same.</p>"
+        f"<p>{same} of {len(judged[0])} verdicts on <cite>{escape(claims.title)}</cite> are the same.{chosen}</p>"
         '<div class="scroll" tabindex="0" role="region" aria-label="verdicts"><table><thead><tr>'
         f"{heads}</tr></thead><tbody>{rows}</tbody></table></div>"))
 
 
-def _judge(claims: Claims, study: Study) -> list[Verdict]:
-    """Under the first combination of the other settings in which a claim can be tested."""
+def _judge(claims: Claims, study: Study) -> tuple[str, list[Verdict]]:
+    """Verdicts under the first combination of the other settings in which a claim can be tested; its name, where there
+    are more."""
     conditions = Conditions(study, claims.labels)
-    found = [judge(claims, conditions, settings, {}) for settings in strata(claims, conditions).values()]
-    return next((of for of in found if not nothing_testable(of)), found[0])
+    found = {name: judge(claims, conditions, settings, {}) for name, settings in strata(claims, conditions).items()}
+    name = next((name for name, of in found.items() if not nothing_testable(of)), next(iter(found)))
+    return name if len(found) > 1 else "", found[name]
 
 
 def as_csv(compared: list[Compared]) -> bytes:

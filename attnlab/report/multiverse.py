@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy.typing as npt
 from attnlab.claims.files import Claims
 from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Cache, Verdict
+from attnlab.claims.parts import Claim
 from attnlab.claims.roles import Combinations
 from attnlab.report.contrasts import Contrast, contrasts, differences
 from attnlab.report.statements import Statement, all_statements
@@ -71,17 +73,27 @@ class Curves:
 
 @dataclass
 class Multiverse:
-    """``holds`` (claims, readings): 1, 0, or nan where untestable. ``levels``: factor -> level by reading. ``curves``:
-    None where no signed comparison can be made, or the readings have too few seeds."""
-    ids: list[str]
-    titles: list[str]
+    """``claims``: by id; ``findings``: of each what was found in every reading. ``levels``: factor -> level by reading.
+    ``curves``: None where no signed comparison can be made, or the readings have too few seeds."""
+    claims: dict[str, Claim]
     names: list[str]
-    holds: Floats
-    reproduced: npt.NDArray[np.bool_]
+    findings: list[list[Finding]]
     levels: dict[str, list[str]]
     defaults: dict[str, str]
     moved: list[Moved]
     curves: Curves | None
+    own: bool = False  # hypotheses of one's own, not a paper's claims
+
+    @cached_property
+    def holds(self) -> Floats:
+        """(claims, readings): 1, 0, or nan where untestable."""
+        return np.array([[np.nan if one is Finding.UNTESTABLE else float(one.holds) for one in of]
+                         for of in self.findings])
+
+    @cached_property
+    def reproduced(self) -> npt.NDArray[np.bool_]:
+        """(claims, readings)"""
+        return np.array([[one is Finding.REPRODUCED for one in of] for of in self.findings])
 
     def share(self, row: int) -> tuple[float, int]:
         """(share of the testable readings in which claim ``row`` holds, how many can test it)."""
@@ -95,16 +107,15 @@ def analyse(claims: Claims, conditions: Conditions, combinations: Combinations,
     ``measured``: of each combination what its verdicts took."""
     verdicts = list(judged.values())
     first = verdicts[0]
-    holds = np.array([[np.nan if of[i].verdict is Finding.UNTESTABLE else float(of[i].holds) for of in verdicts]
-                      for i in range(len(first))])
-    reproduced = np.array([[of[i].verdict is Finding.REPRODUCED for of in verdicts] for i in range(len(first))])
     levels, defaults = factors_of(list(combinations.values()))
-    moved = [found for i, verdict in enumerate(first) for factor, of in levels.items()
-             for found in _moved(verdict.id, factor, np.array(of), defaults[factor], holds[i])]
     wanted = contrasts(claims)
-    return Multiverse([v.id for v in first], [v.claim.title for v in first], list(judged), holds, reproduced, levels,
-                      defaults, moved,
-                      curves_of(wanted, differences(claims, conditions, combinations, measured, wanted), levels))
+    findings = [[of[i].verdict for of in verdicts] for i in range(len(first))]
+    found = Multiverse({v.id: v.claim for v in first}, list(judged), findings, levels, defaults, [],
+                       curves_of(wanted, differences(claims, conditions, combinations, measured, wanted), levels),
+                       claims.own)
+    found.moved = [one for i, verdict in enumerate(first) for factor, of in levels.items()
+                   for one in _moved(verdict.id, factor, np.array(of), defaults[factor], found.holds[i])]
+    return found
 
 
 def curves_of(wanted: Sequence[Contrast], signed: Floats, levels: Mapping[str, Sequence[str]]) -> Curves | None:

@@ -26,18 +26,18 @@ class Section:
     html: str
 
 
-def page(title: str, lead: str, notes: Sequence[str], claims: Claims, verdicts: Sequence[Verdict], where: str,
+def page(title: str, lead: str, notes: Sequence[str], told: str, verdicts: Sequence[Verdict],
          figures: Sequence[Shown], sections: Sequence[Section], provenance: str, found: str = "",
          first: Sequence[Section] = (), script: str = "", shown: str = "") -> str:
-    """The whole page. ``where``: the settings that the verdicts are for, if there are others; ``sections`` follow the
-    figures; ``provenance`` is HTML, and so is ``found``, the first screen; sections in ``first`` follow that one.
-    ``script``: of this page alone; ``shown``: HTML, by which conditions are hidden."""
+    """The whole page. ``told``: HTML of the verdicts in short, which ``verdicts`` are for figures to link to;
+    ``sections`` follow the figures; ``provenance`` is HTML, and so is ``found``, the first screen; sections in
+    ``first`` follow that one. ``script``: of this page alone; ``shown``: HTML, by which conditions are hidden."""
     links = [*([("found", "What was found")] if found else []), *((s.key, s.title) for s in first),
              ("verdicts", "Verdicts"), *([("figures", "Figures")] if figures else []),
              *((s.key, s.title) for s in sections), ("provenance", "Provenance")]
     parts = [
         f'<p class="lead">{escape(lead)}</p>', notes_block(notes),
-        nav(links), shown, found, *map(_section, first), headline(claims, verdicts, where),
+        nav(links), shown, found, *map(_section, first), told,
         '<h2 id="figures">Figures</h2>' if figures else "",
         *(plate(figure, verdicts) for figure in figures),
         *map(_section, sections),
@@ -90,8 +90,15 @@ def nothing_testable(verdicts: Sequence[Verdict]) -> bool:
     return all(v.verdict is Finding.UNTESTABLE for v in verdicts)
 
 
-def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> str:
-    """How many claims fared how, and which; ``where``: under which settings."""
+def told_of(claims: Claims, count: int) -> str:
+    """HTML: how many claims, of whom."""
+    number = f"{count} " + ("hypothes" + ("es" if count > 1 else "is") if claims.own else "claim" + "s" * (count > 1))
+    source = f", {escape(claims.source)}" if claims.source else ""
+    return f"{number} of <cite>{escape(claims.title)}</cite>{source}"
+
+
+def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "", others: int = 0) -> str:
+    """How many claims fared how, and which; ``where``: under which settings, ``others``: of so many besides."""
     if not verdicts:
         return '<h2 id="verdicts">Verdicts</h2><p>There are no complete runs to judge by.</p>'
     if nothing_testable(verdicts):
@@ -112,17 +119,14 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "") -> st
                              for v in mine)
             items.append(f"<li>{chip(verdict, called[verdict])} {said}.</li>")
     holds = sum(counts[v] for v in Finding if v.holds)
-    source = f", {escape(claims.source)}" if claims.source else ""
-    number = f"{len(verdicts)} " + ("hypothes" + ("es" if len(verdicts) > 1 else "is") if own else
-                                    "claim" + "s" * (len(verdicts) > 1))
+    chosen = f" for <b>{escape(where)}</b>, the first of {others + 1} combinations of settings in which a claim can " \
+             "be tested (all of them: below)" if where else ""
     who = "; ".join(f"{role.label} is {', '.join(f'{name}={value}' for name, value in role.where.items())}"
                     for role in claims.roles.values())
     met = counts[Finding.REPRODUCED]
     exact = "" if own else f", {met} of which {'is' if met == 1 else 'are'} reproduced, number and all"
-    return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{number} of <cite>{escape(claims.title)}</cite>'
-            f"{source}, judged by the rules of {escape(claims.path.name)}"
-            f"{f' for <b>{escape(where)}</b> alone (the others: below)' if where else ''}: the claimed direction holds "
-            f"in <b>{holds}</b>{exact}. "
+    return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{told_of(claims, len(verdicts))}, judged by the rules of '
+            f"{escape(claims.path.name)}{chosen}: the claimed direction holds in <b>{holds}</b>{exact}. "
             f"{escape(who)}.</p>\n"
             f'<div class="bar" role="img" aria-label="{holds} of {len(verdicts)} claims hold">{bar}</div>\n'
             f'<div class="key small">{key}</div>\n<ul class="headline">{"".join(items)}</ul>')

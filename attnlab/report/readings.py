@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from attnlab.report import curve, drawn, kept, told
+from attnlab.report import curve, drawn, kept, spread, told
 from attnlab.report.curve_tables import curve_csv, effects_csv, joint_csv, shares_csv
 from attnlab.report.explorer import script
 from attnlab.report.multiverse import Multiverse
@@ -36,5 +36,5 @@ def of(found: Multiverse, study: Path, target: Path) -> Page:
     drawn.save(curve.shares(found), "multiverse_shares", target)
     which, note = kept.section(study)
     notes = [said for said in (note, apart(curves) if curves is not None else "") if said]
-    return Page(told.first_screen(found), [*told.sections(found), *([which] if which else [])],
+    return Page(told.first_screen(found), [*told.sections(found), spread.section(found), *([which] if which else [])],
                 script() if curves is not None else "", notes)

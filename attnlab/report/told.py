@@ -1,8 +1,7 @@
-"""A multiverse's page: first screen with the curve, then what moves each claim, then shares of readings."""
+"""A multiverse's page: first screen with the curve, then every comparison and what moves it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -47,9 +46,9 @@ def _bold(text: str) -> str:
 
 
 def sections(found: Multiverse) -> list[Section]:
-    """All comparisons, what moves them, shares of readings."""
+    """All comparisons, and what moves them."""
     of = found.curves
-    return [*([_comparisons(of), _moves(found, of)] if of is not None else []), _claims(found)]
+    return [_comparisons(of), _moves(found, of)] if of is not None else []
 
 
 def _comparisons(of: Curves) -> Section:
@@ -105,38 +104,3 @@ def _moves(found: Multiverse, of: Curves) -> Section:
             "chance; chance alone gives a factor of two levels about 1 in the number of readings. All shares: "
             "shares.csv.</p>")
     return Section("moves", "What moves each claim", html)
-
-
-def _claims(found: Multiverse) -> Section:
-    rows = []
-    for i, key in enumerate(found.ids):
-        value, testable = found.share(i)
-        top = sorted((e for e in found.moved if e.claim == key and e.difference), key=lambda e: -abs(e.difference))[:2]
-        said = "; ".join(f"{short(e.factor)}={short(e.level)} {100 * e.difference:+.0f}" for e in top) or "nothing"
-        wide = f'<rect x="0" width="{100 * value:.1f}" height="1"/>' if testable else ""
-        exact = f"{100 * found.reproduced[i].sum() / testable:.0f} %" if testable else "-"
-        rows.append(f"<tr><td><b>{escape(key)}</b> {escape(found.titles[i])}</td><td class=share><svg "
-                    f'viewBox="0 0 100 1" preserveAspectRatio="none" aria-hidden="true">{wide}</svg></td>'
-                    f"<td class=n>{f'{100 * value:.0f} %' if testable else '-'}</td><td class=n>{exact}</td>"
-                    f"<td class=n>{testable}</td><td>{escape(said)}</td></tr>")
-    heads = ("claim", "", "holds in", "reproduced in", "readings", "moved most by (percent points)")
-    head = "".join(f'<th scope="col"{" class=n" if 1 < i < 5 else ""}>{name}</th>' if name else "<td></td>"
-                   for i, name in enumerate(heads))
-    html = ("<p>A claim holds in a reading if its verdict is <i>reproduced</i> or one of the two <i>direction</i> "
-            "ones; readings in which it is untestable do not count.</p>"
-            '<div class="scroll" tabindex="0" role="region" aria-label="shares of readings"><table class=moves><thead>'
-            f"<tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
-            + "<h3>Readings that satisfy most claims</h3>" + _best(found)
-            + f"<p class=small>All {len(found.names)} readings: combinations.csv. Moved: the share with a level less "
-            f"the share with the default level, all {len(found.moved)} in effects.csv; differences within a fixed "
-            "design, without intervals.</p>")
-    return Section("multiverse", "In how many readings each claim holds", html)
-
-
-def _best(found: Multiverse, most: int = 5) -> str:
-    best = sorted(range(len(found.names)), key=lambda j: (-np.nansum(found.holds[:, j]), j))[:most]
-    rows: list[Sequence[str]] = [[
-        found.names[j], f"{np.nansum(found.holds[:, j]):.0f}", f"{found.reproduced[:, j].sum()}",
-        ", ".join(f"{short(f)}={short(of[j])}" for f, of in found.levels.items() if of[j] != found.defaults[f])
-        or "nothing"] for j in best]
-    return table(("reading", "claims that hold", "reproduced", "differs from the default in"), rows, (1, 2))

@@ -20,7 +20,8 @@ def _n(value: float, form: str = ".3g") -> str:
 
 
 def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
-    """The table of all claims: what the paper says, the verdict, its numbers and its reason."""
+    """The table of all claims: what the paper says, the verdict, its numbers and its reason. ``stratum``: the settings
+    that they are for, if there are others."""
     head = "".join(f"<th{' class=n' if n else ''}>{name}</th>" for name, n in (
         ("claim", 0), ("verdict", 0), ("found, and why", 0), ("effect d", 1), ("p", 1), ("Holm", 1), ("seeds", 1)))
     rows = []
@@ -34,7 +35,8 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
             f'<td class=n data-name="effect d">{_n(lead.effect, ".2f")}</td><td class=n data-name="p">{_n(v.p)}</td>'
             f'<td class=n data-name="Holm">{_n(v.p_holm)}</td>'
             f'<td class=n data-name="seeds">{lead.seeds or "-"}</td></tr>')
-    where = f"<p>For {escape(stratum)}.</p>" if stratum else ""
+    where = f"<p>For {escape(stratum)}, the first combination of settings in which a claim can be tested; of the " \
+            "others: verdicts.csv.</p>" if stratum else ""
     html = (f'{where}<div class="scroll" tabindex="0" role="region" aria-label="claims"><table class=claims>'
             f'<thead><tr>{head}</tr></thead>'
             f'<tbody>{"".join(rows)}</tbody></table></div>'

@@ -12,11 +12,14 @@ import numpy as np
 import pytest
 
 from attnlab.claims.files import load_claims
-from attnlab.report import kept, readings, statements_of, told
+from attnlab.claims.findings import Finding
+from attnlab.report import kept, readings, spread, statements_of, told
+from attnlab.report.build import build
 from attnlab.report.contrasts import Contrast, contrasts, in_words
 from attnlab.report.multiverse import Multiverse, curves_of
 from attnlab.report.page import page
 from attnlab.tables.readings import Decided, Tried, write_decided
+from tests.report.small_study import write_run
 
 HOSTILE = "</script><img src=x onerror=\"document.title='owned'\">"
 PROBE = """<!doctype html><meta charset="utf-8"><iframe id=page src="%s" style="width:390px;height:900px">
@@ -47,8 +50,9 @@ def planted(name: str = "crash") -> Multiverse:
     x[:5, 2] = np.nan
     wanted = [Contrast(f"C{m}", 0, f"measure {m}", "treatment", "control", "CR", "NCR", -1.0, f"m{m}", False)
               for m in range(4)]
-    holds = np.where(rng.random((2, 20)) < 0.5, 1.0, 0.0)
-    return Multiverse(["C1", "C2"], ["one", "two"], [f"r{i}" for i in range(20)], holds, holds > 1, levels,
+    found = [[Finding.DIRECTION] * 15 + [Finding.NOT] * 3 + [Finding.UNTESTABLE] * 2,
+             [Finding.CONTRADICTED] * 19 + [Finding.REPRODUCED]]
+    return Multiverse({key: CLAIMS.claims[key] for key in ("C1", "C2")}, [f"r{i}" for i in range(20)], found, levels,
                       {factor: of[0] for factor, of in levels.items()}, [], curves_of(wanted, x, levels))
 
 
@@ -61,7 +65,8 @@ def built(tmp_path_factory):
     (study / "figures").mkdir()
     with drawing():
         over = readings.of(planted(HOSTILE), study, study)
-    html = page("many", "", over.notes, CLAIMS, [], "", [], [], "", over.first_screen, over.sections, over.script)
+    html = page("many", "", over.notes, spread.headline(planted(HOSTILE), CLAIMS), [], [], [], "", over.first_screen,
+                over.sections, over.script)
     (study / "index.html").write_text(html)
     return html, study
 
@@ -98,6 +103,33 @@ def test_it_says_all_without_its_script(built):
     assert "measure 2 [C2]; measure 3 [C3]." in body and "of 15</td>" in body  # five readings have no value
     assert body.count("<path data-f=") == 5 and 'class="dots claimed" d="M' in body
     assert "hidden>" in body  # what only a script can do is not shown
+
+
+def test_no_reading_speaks_for_all(built):
+    """Verdicts are shares of the readings that can test a claim, and each verdict's readings are counted."""
+    verdicts = built[0].partition('<h2 id="verdicts">')[2].partition("<h2")[0]
+    assert "2 claims of" in verdicts and "in each of 20 readings" in verdicts
+    assert "holds in most</span> <a href=\"#claim-C1\">C1</a> NCR survives better at first (83 %)." in verdicts
+    assert "holds in hardly any</span> <a href=\"#claim-C2\">C2</a>" in verdicts and "(5 %)" in verdicts
+    (row,) = re.findall(r'<tr id="claim-C1">.*?</tr>', built[0], re.S)
+    assert ">83 %<" in row and "15 direction only, 3 not reproduced, 2 untestable" in row
+    assert 'class="v-not" x="15" width="3"' in row and escape(CLAIMS.claims["C1"].says) in row
+
+
+def test_a_study_of_many_readings_shows_none_of_them(tmp_path, monkeypatch):
+    """No verdict, condition or box is of a single reading; here two are many."""
+    monkeypatch.setattr("attnlab.report.build.LEAST_READINGS", 2)
+    study = tmp_path / "readings"
+    for i in range(2):
+        for curiosity in ("litman", "none"):
+            swept = {"variant": f"r{i} {curiosity}", "reading.need_k": str(1 + i / 10)}
+            for seed in range(6):
+                write_run(study, curiosity, seed, train=4, validation=2, cycles=20, swept=swept, safety=0.3)
+    text = build(study, tmp_path / "out", "dinocera2014", None, True, hands=1).read_text()
+    assert "in each of 2 readings" in text and "Claims one by one" not in text and "Conditions shown" not in text
+    table = text.partition("Conditions over all readings</h2>")[2].partition("</table>")[0]
+    assert table.count("<tr>") == 3 and ">2</td>" in table  # a head and a row for CR and for NCR
+    assert len((tmp_path / "out" / "conditions.csv").read_text().splitlines()) == 5
 
 
 def test_nothing_runs_but_its_script(built):
@@ -155,7 +187,7 @@ def test_every_signed_comparison_against_every_control():
 def test_nothing_to_compare_is_said():
     found = planted()
     found.curves = None
-    assert "nothing to compare" in told.first_screen(found) and len(told.sections(found)) == 1
+    assert "nothing to compare" in told.first_screen(found) and told.sections(found) == []
 
 
 def test_levels_that_hardly_any_reading_has_are_named():
