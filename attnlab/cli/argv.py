@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from attnlab.errors import ConfigError, nearest
+from attnlab.launch.searchpath import searchpath
 from attnlab.tables.ranges import RANGED, seeds
 
 INFOS = ("all", "config", "defaults", "defaults-tree", "plugins", "searchpath")
@@ -14,6 +15,7 @@ TAKE_VALUES = {"-c": ("job", "hydra", "all"), "--cfg": ("job", "hydra", "all"), 
                "-i": INFOS, "--info": INFOS, "-sc": (), "--shell-completion": ()}
 ASKS = ("-c", "--cfg", "-i", "--info", "--hydra-help", "-sc", "--shell-completion")  # shown, and nothing is run
 OF_CFG = ("--resolve", "-p", "--package")
+FOLDER = ("-cd", "--config-dir")  # the same as hydra.searchpath, which the door knows
 FLAGS = ("-m", "--multirun", "-h", "--help", "--version", "--resolve", "--hydra-help", *TAKE_VALUES)
 
 
@@ -26,7 +28,10 @@ def normalise(argv: list[str]) -> tuple[list[str], list[str]]:
     for argument in argv:
         if waiting:
             _check_value(waiting, argument)
-            flags.append(argument)
+            if waiting in FOLDER:
+                overrides.append(searchpath([argument]))
+            else:
+                flags.append(argument)
             waiting = ""
         elif (argument.startswith("-") and "=" not in argument.split("[")[0]) or argument.startswith("--"):
             name, equals, value = argument.partition("=")
@@ -37,7 +42,9 @@ def normalise(argv: list[str]) -> tuple[list[str], list[str]]:
             elif equals:
                 raise ConfigError(argument, "takes no value", f"Write {name}")
             waiting = name if name in TAKE_VALUES and not equals else ""
-            if argument not in flags:
+            if name in FOLDER:
+                overrides += [searchpath([value])] if equals else []
+            elif argument not in flags:
                 flags.append(argument)
         else:
             overrides.append(_override(argument))

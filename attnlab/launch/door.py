@@ -21,6 +21,7 @@ from attnlab import registry
 from attnlab.config import RunSettings, check_path, no_such_setting
 from attnlab.errors import ConfigError, nearest
 from attnlab.groups import GROUPS
+from attnlab.launch.searchpath import searchpath
 
 ALLOWED = ("hydra.searchpath", "hydra.verbose", "hydra/job_logging", "hydra/hydra_logging")  # all else is ours
 ELSEWHERE = {  # groups of files that no run is composed of
@@ -55,6 +56,8 @@ class Door:
                 return plain + rest
             return argument if plain in RunSettings.__dataclass_fields__ or plain == "hydra" else f"+{plain}{rest}"
         head = plain.partition(".")[0]
+        if plain == "hydra.searchpath" and isinstance(folders := self._parsed(argument).value(), list):
+            return searchpath([_plain(folder) for folder in folders])
         if head == "hydra":
             return argument
         if head in OWN_NAMES or (key.startswith("+") and "." in plain):  # there or not

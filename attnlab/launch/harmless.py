@@ -10,10 +10,10 @@ from hydra._internal.core_plugins.file_config_source import FileConfigSource
 from hydra.plugins.config_source import ConfigResult
 
 from attnlab.errors import ConfigError
+from attnlab.launch.searchpath import SCHEME
 from attnlab.tables.yamls import read_yaml
 
 RUNS_CODE = ("_target_", "()")  # what Hydra, and Python's logging, take for the name of something to call
-SCHEME = "attnlab"
 
 
 class CheckedFiles(FileConfigSource):

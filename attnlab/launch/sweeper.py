@@ -28,10 +28,11 @@ from attnlab.launch.compose import Composer
 from attnlab.launch.door import MOST_RUNS, Door
 from attnlab.launch.expand import Expansion, choices, name_of
 from attnlab.launch.foreign import StudyLauncher
-from attnlab.launch.harmless import SCHEME, CheckedFiles
+from attnlab.launch.harmless import CheckedFiles
 from attnlab.launch.jobs import Job, check_once
 from attnlab.launch.pilots import UndecidedError, sound
 from attnlab.launch.place import check_place
+from attnlab.launch.searchpath import SCHEME
 from attnlab.launch.variants import read_design, read_variants
 from attnlab.loading import config_folders
 from attnlab.settings import build

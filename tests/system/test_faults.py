@@ -168,6 +168,28 @@ def test_code_through_another_file(complain, tmp_path, name):
     assert not (tmp_path / "outputs").exists()
 
 
+@pytest.mark.parametrize("typed", ["hydra.searchpath=['file://{}']", "+hydra.searchpath=['{}']", "--config-dir={}"])
+def test_a_folder_that_was_typed_is_looked_at_too(complain, tmp_path, typed):
+    """Its files set values like those of plugins/, and run no code."""
+    folder = tmp_path / "it's mine"
+    for group, name, text in (("experiment", "sly", FILES["callbacks"][1]),
+                              ("world", "small", "part: layout\nwidth_m: 0\n")):
+        (folder / group).mkdir(parents=True)
+        (folder / group / f"{name}.yaml").write_text(text)
+    named = typed.format(str(folder).replace("'", "\\'") if "'" in typed else folder)
+    code, err, _ = complain(named, "experiment=sly", "simulator=planar")
+    assert code == 2 and "experiment/sly.yaml: callbacks names code" in err, err
+    code, err, _ = complain(named, "world=small", "simulator=planar")
+    assert code == 2 and "world.width_m: is 0" in err, err
+
+
+@pytest.mark.parametrize(("typed", "says"), [("hydra.searchpath=[pkg://os]", "pkg://os is no folder"),
+                                             ("--config-dir=nowhere", "there is no folder nowhere")])
+def test_what_is_no_folder(complain, typed, says):
+    code, err, written = complain(typed, "simulator=planar")
+    assert code == 2 and says in err and not written, err
+
+
 def test_a_swept_file_is_looked_at_too(complain, tmp_path):
     (tmp_path / "plugins" / "world").mkdir(parents=True)
     (tmp_path / "plugins" / "world" / "bomb.yaml").write_text(FILES["bomb"][1])
