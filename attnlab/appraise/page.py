@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from attnlab.tables.csvs import frame_csv
 from attnlab.tables.files import write_bytes
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def write(table: pd.DataFrame, probed: Mapping[str, pd.DataFrame], names: Sequen
         markdown(signals), "## Rank correlation of the likings",
         "Empty: that liking never changed.", markdown(together)]) + "\n"
     csv, page, figure = out / "appraisal.csv", out / "appraisal.md", out / "appraisal.png"
-    write_bytes(csv, table.to_csv(index=False).encode())
+    write_bytes(csv, frame_csv(table))
     write_bytes(page, text.encode())
     draw(table, probed, names, together, figure)
     return [csv, page, figure]

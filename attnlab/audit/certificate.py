@@ -12,6 +12,7 @@ from attnlab.audit.pairs import ALL, IMPOSSIBLE, POSSIBLE, SEEN, UNDECIDED, Pair
 from attnlab.claims.files import load_claims
 from attnlab.claims.findings import Finding
 from attnlab.errors import ConfigError
+from attnlab.tables.csvs import csv_bytes
 from attnlab.tables.files import write_bytes
 
 MARKS = {IMPOSSIBLE: "x", POSSIBLE: "o", UNDECIDED: "?"}
@@ -71,10 +72,7 @@ def as_rows(found: Sequence[Pair]) -> list[dict[str, str]]:
 
 def as_csv(found: Sequence[Pair]) -> str:
     """A row a pair."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerows([Pair._fields, *found])
-    return sink.getvalue()
+    return csv_bytes(Pair._fields, found).decode()
 
 
 def words(rows: Sequence[Mapping[str, str]]) -> str:

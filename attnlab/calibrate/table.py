@@ -16,6 +16,7 @@ from attnlab.claims import rules as decide
 from attnlab.claims.files import Claims
 from attnlab.claims.parts import Claim
 from attnlab.errors import ConfigError
+from attnlab.tables.csvs import csv_bytes
 
 GRID = (6, 8, 10, 12, 15, 20, 30, 40, 60, 80, 120, 200, 400)
 POWER = 0.8
@@ -102,15 +103,13 @@ def rate(hits: npt.NDArray[np.bool_]) -> tuple[float, float]:
 
 
 def as_csv(rows: Sequence[Row]) -> bytes:
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(HEADS)
+    lines = list[list[object]]()
     for row in rows:
         rates = (*row.false_reproduced, *row.false_contradicted, row.false_holds, row.power_holds, row.power_reproduced)
-        writer.writerow([row.id, row.title, row.planted, row.seeds, *(f"{x:.6f}" for x in rates),
-                         *(_seeds(x, row.known) for x in (row.to_hold, row.to_reproduce)),
-                         "of the tables" if row.known else "standard"])
-    return sink.getvalue().encode()
+        lines.append([row.id, row.title, row.planted, row.seeds, *(f"{x:.6f}" for x in rates),
+                      *(_seeds(x, row.known) for x in (row.to_hold, row.to_reproduce)),
+                      "of the tables" if row.known else "standard"])
+    return csv_bytes(HEADS, lines)
 
 
 def _seeds(found: int | None, known: bool) -> str:

@@ -9,7 +9,7 @@ import re
 import signal
 import time
 from collections.abc import Sequence
-from multiprocessing import forkserver
+from multiprocessing import forkserver, util
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,7 @@ from attnlab.paths import PACKAGE
 from attnlab.tables.claim import BEAT_S, Claim
 from attnlab.tables.files import read_json, write_json
 from attnlab.tables.processes import address_space, signal_name
+from attnlab.tables.scratch import sign, sweep_scratch
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -44,7 +45,9 @@ def context_for(jobs: Sequence[Job]) -> Context:
     heavy = ["attnlab.kernels.planar"] * planar + ["attnlab.compiled.engine", "attnlab.compiled.summary"] * compiled
     context.set_forkserver_preload(["attnlab.launch.preload", *heavy])
     try:
+        sweep_scratch()
         forkserver.ensure_running()
+        sign(Path(util.get_temp_dir()))  # where its socket is
     except OSError:  # the path of its socket is too long (TMPDIR)
         return multiprocessing.get_context("spawn")
     return context

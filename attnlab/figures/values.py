@@ -6,14 +6,14 @@ the ends of its band where a filled area has the same ``gid``.
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import zlib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+
+from attnlab.tables.csvs import csv_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,12 +106,7 @@ def _said(value: float, low: float, high: float) -> str:
 
 def as_csv(found: list[Plot]) -> bytes:
     """A row for every point of every line: panel, line, labels of the axes, x, y, and the ends of its band."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["panel", "line", "x_label", "y_label", "x", "y", "low", "high"])
-    for plot in found:
-        for line in plot.lines:
-            for row in np.hstack([line.points, line.ends]):
-                numbers = [f"{n:.9g}" if np.isfinite(n) else "" for n in row]
-                writer.writerow([plot.title, line.name, plot.x, plot.y, *numbers])
-    return sink.getvalue().encode()
+    return csv_bytes(
+        ["panel", "line", "x_label", "y_label", "x", "y", "low", "high"],
+        ([plot.title, line.name, plot.x, plot.y, *(f"{n:.9g}" if np.isfinite(n) else "" for n in row)]
+         for plot in found for line in plot.lines for row in np.hstack([line.points, line.ends])))

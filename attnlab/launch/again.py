@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from attnlab.robot.folder import run_to_folder
 from attnlab.tables.code import code, versions
 from attnlab.tables.files import read_json
 from attnlab.tables.schema import TABLES
+from attnlab.tables.scratch import scratch
 
 
 def made_again(folder: Path) -> list[str]:
@@ -24,7 +24,7 @@ def made_again(folder: Path) -> list[str]:
         raise no_run(folder, why or status)
     info = {"run": about.get("run", folder.name), "key": about.get("key"), "overrides": about.get("overrides") or [],
             "swept": about.get("swept") or {}}
-    with tempfile.TemporaryDirectory(prefix="attnlab-") as home:
+    with scratch() as home:
         new = Path(home) / "run"
         if not run_to_folder({**config, "callback": {}}, new, info):
             error = str((read_json(new / "run.json") or {}).get("error")).strip().splitlines()

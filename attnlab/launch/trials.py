@@ -6,9 +6,7 @@ asked. What a trial was worth to each seed is kept there too, so that the page n
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import math
 import shlex
 import sys
@@ -25,6 +23,7 @@ from attnlab.launch.place import check_place
 from attnlab.launch.space import axis
 from attnlab.launch.worth import goal_of, worth
 from attnlab.report.tuned import Seen, Trial, Tuned, page, said, shown
+from attnlab.tables.csvs import csv_bytes
 from attnlab.tables.files import write_bytes
 from attnlab.tables.flat import dig
 from attnlab.tables.numbers import mean_of
@@ -138,15 +137,13 @@ class Tuning:
     def _write(self, study: Any, last: bool = False) -> Tuned:
         """All trials so far as a table and a page."""
         found = self._seen(study, self._importance(study) if last else {})
-        text = io.StringIO()
-        rows = csv.writer(text, lineterminator="\n")
         names = [a.name for a in self.axes]
-        rows.writerow(["trial", "value", *names, *(f"seed {seed}" for seed in self.seeds), "failed"])
-        rows.writerows([trial.number, "" if trial.value is None else repr(trial.value),
-                        *(trial.settings[name] for name in names),
-                        *(repr(trial.seeds[seed]) if seed in trial.seeds else "" for seed in self.seeds), trial.failed]
-                       for trial in found.ranked())
-        write_bytes(self.folder / TABLE, text.getvalue().encode())
+        write_bytes(self.folder / TABLE, csv_bytes(
+            ["trial", "value", *names, *(f"seed {seed}" for seed in self.seeds), "failed"],
+            ([trial.number, "" if trial.value is None else repr(trial.value),
+              *(trial.settings[name] for name in names),
+              *(repr(trial.seeds[seed]) if seed in trial.seeds else "" for seed in self.seeds), trial.failed]
+             for trial in found.ranked())))
         write_bytes(self.folder / PAGE, page(found).encode())
         return found
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from attnlab.curiosity.window import Window
@@ -16,6 +15,7 @@ from attnlab.robot.episode import run_episode
 from attnlab.robot.plan import RunPlan
 from attnlab.robot.record import Recorder
 from attnlab.robot.rehearsal import Rehearsal
+from attnlab.tables.scratch import scratch
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,7 +36,7 @@ def live_again(plan: RunPlan, folder: Path, phase: str, episode: int) -> Lived:
     import pandas as pd
     s = plan.settings
     recorder = Recorder("again", s.seed, s.curiosity["name"], {}, plan.layout, False, plan.probes())
-    with TemporaryDirectory() as copy:
+    with scratch() as copy:
         for journal in folder.glob("*.jsonl"):
             shutil.copy(journal, copy)
         with Rehearsal(plan, Path(copy)) as play:

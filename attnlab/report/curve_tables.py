@@ -2,29 +2,19 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from attnlab.claims.judge import Verdict
 from attnlab.claims.roles import Combinations
 from attnlab.report.multiverse import Curves, Multiverse
-
-
-def _csv(heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> bytes:
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(heads)
-    writer.writerows(rows)
-    return sink.getvalue().encode()
+from attnlab.tables.csvs import csv_bytes
 
 
 def effects_csv(found: Multiverse) -> bytes:
     """A row a claim and level: how much more often it holds than at the default."""
-    return _csv(("claim", "factor", "level", "default", "difference_of_shares"),
+    return csv_bytes(("claim", "factor", "level", "default", "difference_of_shares"),
                 ([*e[:4], f"{e.difference:.4f}"] for e in found.moved))
 
 
@@ -39,7 +29,7 @@ def curve_csv(found: Multiverse, curves: Curves) -> bytes:
             numbers = (curves.effects[r, m], curves.low[r, m], curves.high[r, m], curves.joint.of_readings[r, m])
             rows.append([of.measure, of.claim, of.who, of.whom, found.names[r], *(f"{x:.5g}" for x in numbers),
                          *(levels[r] for levels in found.levels.values())])
-    return _csv(("measure", "claim", "role", "against", "reading", "effect_d", "low", "high", "p_family",
+    return csv_bytes(("measure", "claim", "role", "against", "reading", "effect_d", "low", "high", "p_family",
                  *found.levels), rows)
 
 
@@ -56,7 +46,7 @@ def joint_csv(found: Multiverse, curves: Curves) -> bytes:
                      int((curves.effects[:, m] > 0).sum()), j.clear[m], j.opposite[m],
                      *(f"{x:.5g}" for x in numbers), j.patterns, said.kind, of.told(said.side), said.on_side,
                      "; ".join(said.factors), levels, mover, f"{share:.4f}"])
-    return _csv(("measure", "claim", "role", "against", "claimed", "readings", "with_value", "seeds", "median_d",
+    return csv_bytes(("measure", "claim", "role", "against", "claimed", "readings", "with_value", "seeds", "median_d",
                  "as_claimed", "clear_as_claimed", "clear_opposite", "p_joint", "p_median", "p_clear", "p_family",
                  "patterns", "statement", "side", "readings_on_side", "hangs_on", "as_claimed_by_level",
                  "moved_most_by", "its_share"), rows)
@@ -64,7 +54,7 @@ def joint_csv(found: Multiverse, curves: Curves) -> bytes:
 
 def shares_csv(curves: Curves) -> bytes:
     """A row a contrast and factor: share of the variance of the effects between the factor's levels."""
-    return _csv(("measure", "claim", "role", "against", "factor", "share_of_variance"),
+    return csv_bytes(("measure", "claim", "role", "against", "factor", "share_of_variance"),
                 ([of.measure, of.claim, of.who, of.whom, name, f"{share:.4f}"]
                  for of, shares in zip(curves.contrasts, curves.shares, strict=True)
                  for name, share in shares.items()))
@@ -73,6 +63,6 @@ def shares_csv(curves: Curves) -> bytes:
 def combinations_csv(combinations: Combinations, judged: Mapping[str, Sequence[Verdict]]) -> bytes:
     """A row a combination: its settings, and the verdict on every claim."""
     first = next(iter(judged.values()), [])
-    return _csv(("combination", *next(iter(combinations.values()), {}), *(v.id for v in first)),
+    return csv_bytes(("combination", *next(iter(combinations.values()), {}), *(v.id for v in first)),
                 ([name, *settings.values(), *(v.verdict for v in verdicts)]
                  for (name, verdicts), settings in zip(judged.items(), combinations.values(), strict=True)))

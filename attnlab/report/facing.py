@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Mapping
 from html import escape
 from math import isfinite
@@ -20,6 +18,7 @@ from attnlab.report.plates import chip
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import Study, load
 from attnlab.stats import mean_interval
+from attnlab.tables.csvs import csv_bytes
 from attnlab.tables.files import write_bytes
 
 MOST = 60  # differences of settings that are listed
@@ -141,13 +140,11 @@ def _judge(claims: Claims, study: Study) -> tuple[str, list[Verdict]]:
 
 def as_csv(compared: list[Compared]) -> bytes:
     """A row a measure of a condition: means, difference with its interval, and how it was taken."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["condition", "measure", "unit", "one", "other", "difference", "low", "high", "paired", "seeds_one",
-                     "seeds_other", "seeds_shared"])
+    rows = list[list[object]]()
     for of in compared:
         numbers = (mean_interval(list(of.one.values())).value, mean_interval(list(of.other.values())).value,
                    *of.difference)
-        writer.writerow([of.condition, of.measure, of.unit, *(f"{n:.6g}" if isfinite(n) else "" for n in numbers),
-                         "yes" if of.paired else "no", len(of.one), len(of.other), len(of.seeds)])
-    return sink.getvalue().encode()
+        rows.append([of.condition, of.measure, of.unit, *(f"{n:.6g}" if isfinite(n) else "" for n in numbers),
+                     "yes" if of.paired else "no", len(of.one), len(of.other), len(of.seeds)])
+    return csv_bytes(["condition", "measure", "unit", "one", "other", "difference", "low", "high", "paired",
+                      "seeds_one", "seeds_other", "seeds_shared"], rows)

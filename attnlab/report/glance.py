@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from attnlab.report.page import Section, table
 from attnlab.results.load import Study
 from attnlab.results.summary import shown, summary_frame
+from attnlab.tables.csvs import frame_csv
 
 MOST = 40
 
@@ -23,5 +24,5 @@ def section(study: Study, marks: Mapping[str, str]) -> tuple[Section, bytes]:
         "half of training and in validation. The rest over validation episodes: crashed in % of them, needs and energy "
         "in UoE, safety by eq 13, "
         f"activations an episode of {names}.{more}</p>")
-    csv = frame.to_csv(index=False, float_format="%.6g").encode()
+    csv = frame_csv(frame, "%.6g")
     return Section("conditions", "Conditions at a glance", html), csv

@@ -6,8 +6,6 @@ on episodes that were survived; the other form, all episodes with penalties as e
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -18,6 +16,7 @@ from attnlab.audit.table import Cell, Table
 from attnlab.measures.frames import of_seeds, phase_rows
 from attnlab.measures.once import once_a_study
 from attnlab.results.conditions import Conditions, Runs
+from attnlab.tables.csvs import csv_bytes
 
 UNITS = {"energy": "UoE", "safety": "0-1", "hunger": "UoE", "thirst": "UoE", "reward": "UoR",
          "activations": "1", "active_cycles": "mc"}
@@ -132,20 +131,19 @@ def texts(row: Row) -> tuple[str, str, str, str]:
 
 def as_csv(tables: list[tuple[str, list[Row]]]) -> bytes:
     """All tables in long form; ``tables``: (combination of the other settings, rows)."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["settings", "quantity", "unit", "condition", "paper_mean", "paper_sd", "here_mean",
-                     "here_sd_within_seeds", "here_sd_between_seeds", "difference", "all_mean", "all_sd_within_seeds",
-                     "all_sd_between_seeds", "undecided"])
+    heads = ["settings", "quantity", "unit", "condition", "paper_mean", "paper_sd", "here_mean", "here_sd_within_seeds",
+             "here_sd_between_seeds", "difference", "all_mean", "all_sd_within_seeds", "all_sd_between_seeds",
+             "undecided"]
+    lines = list[list[object]]()
     nothing = (float("nan"),) * 3
     for stratum, of in tables:
         for row in of:
             paper = (row.paper.mean, row.paper.sd) if row.paper else (None, None)
             numbers = (*paper, *(row.here or nothing), row.difference, *(row.every or nothing))
-            writer.writerow([stratum, row.quantity, row.unit, row.condition,
-                             *("" if v is None or not np.isfinite(v) else f"{v:.6g}" for v in numbers),
-                             "yes" if row.undecided else ""])
-    return sink.getvalue().encode()
+            lines.append([stratum, row.quantity, row.unit, row.condition,
+                          *("" if v is None or not np.isfinite(v) else f"{v:.6g}" for v in numbers),
+                          "yes" if row.undecided else ""])
+    return csv_bytes(heads, lines)
 
 
 def print_table(of: list[Row], title: str) -> None:

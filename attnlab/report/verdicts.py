@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Sequence
 from html import escape
@@ -13,6 +11,7 @@ from attnlab.claims.judge import Verdict
 from attnlab.claims.parts import PAIRED
 from attnlab.report.page import Section
 from attnlab.report.plates import chip
+from attnlab.tables.csvs import csv_bytes
 
 
 def _n(value: float, form: str = ".3g") -> str:
@@ -106,37 +105,30 @@ def matrix(judged: dict[str, list[Verdict]], most: int = 12) -> Section:
 
 def as_csv(judged: dict[str, list[Verdict]]) -> bytes:
     """A row for every comparison of every claim in every combination of the other settings."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["settings", "claim", "title", "verdict", "at_worst", "p", "p_holm", "part", "counts", "measure",
-                     "test", "part_verdict", "value", "low", "high", "bca_low", "bca_high", "unit", "paper",
-                     "tolerance", "role", "against", "role_level", "against_level", "effect_d", "part_p",
-                     "p_sign_flip", "seeds", "forms", "reason"])
+    heads = ["settings", "claim", "title", "verdict", "at_worst", "p", "p_holm", "part", "counts", "measure", "test",
+             "part_verdict", "value", "low", "high", "bca_low", "bca_high", "unit", "paper", "tolerance", "role",
+             "against", "role_level", "against_level", "effect_d", "part_p", "p_sign_flip", "seeds", "forms", "reason"]
+    rows = list[list[object]]()
     for stratum, verdicts in judged.items():
         for v in verdicts:
             for i, p in enumerate(v.parts):
                 part, against = p.part, p.part.against if p.part.test in PAIRED else ""
                 forms = "; ".join(f"{name}: {finding}" for name, finding in p.forms.items())
-                writer.writerow([stratum, v.id, v.claim.title, v.verdict, v.worst or "", _plain(v.p), _plain(v.p_holm),
-                                 i, "yes" if part.counts else "no", part.measure_name, part.test, p.verdict,
-                                 *map(_plain, (*p.value, *p.bca)), part.unit, _plain(part.number), _plain(part.known),
-                                 part.role, against, _plain(p.levels.get(part.role)), _plain(p.levels.get(against)),
-                                 _plain(p.effect), _plain(p.p), _plain(p.p_flip), p.seeds, forms, p.reason])
-    return sink.getvalue().encode()
+                rows.append([stratum, v.id, v.claim.title, v.verdict, v.worst or "", _plain(v.p), _plain(v.p_holm),
+                             i, "yes" if part.counts else "no", part.measure_name, part.test, p.verdict,
+                             *map(_plain, (*p.value, *p.bca)), part.unit, _plain(part.number), _plain(part.known),
+                             part.role, against, _plain(p.levels.get(part.role)), _plain(p.levels.get(against)),
+                             _plain(p.effect), _plain(p.p), _plain(p.p_flip), p.seeds, forms, p.reason])
+    return csv_bytes(heads, rows)
 
 
 def seeds_csv(judged: dict[str, list[Verdict]]) -> bytes:
     """What every seed contributed to every comparison: a difference, a sign in %, or a level."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["settings", "claim", "part", "measure", "test", "unit", "seed", "value"])
-    for stratum, verdicts in judged.items():
-        for v in verdicts:
-            for i, p in enumerate(v.parts):
-                for seed, value in sorted(p.sample.items()):
-                    writer.writerow([stratum, v.id, i, p.part.measure_name, p.part.test, p.part.unit, seed,
-                                     f"{value:.9g}"])
-    return sink.getvalue().encode()
+    return csv_bytes(
+        ["settings", "claim", "part", "measure", "test", "unit", "seed", "value"],
+        ([stratum, v.id, i, p.part.measure_name, p.part.test, p.part.unit, seed, f"{value:.9g}"]
+         for stratum, verdicts in judged.items() for v in verdicts for i, p in enumerate(v.parts)
+         for seed, value in sorted(p.sample.items())))
 
 
 def _plain(value: float | None) -> str:

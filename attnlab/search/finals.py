@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -15,6 +13,7 @@ from attnlab.search.bench import Played
 from attnlab.search.rungs import UNSOUND, Step
 from attnlab.search.score import CLEAR, why_unsound
 from attnlab.search.space import Row, code
+from attnlab.tables.csvs import csv_bytes
 
 REFERENCES: dict[str, dict[str, Any]] = {"inferred": {"reading": "inferred"}, "table4": {"reading": "table4"}}
 
@@ -82,6 +81,4 @@ def claims_csv(steps: Sequence[Step], scores: Sequence[Mapping[Row, Mapping[str,
 
 
 def _csv(rows: Sequence[Sequence[Any]]) -> str:
-    sink = io.StringIO()
-    csv.writer(sink, lineterminator="\n").writerows(rows)
-    return sink.getvalue()
+    return csv_bytes(rows[0], rows[1:]).decode()

@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import csv
 import dataclasses
-import io
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from attnlab.tables.csvs import csv_bytes
 from attnlab.tables.files import read_json, write_bytes, write_json
 
 FILE, TABLE = "readings.json", "readings.csv"
@@ -63,15 +62,13 @@ class Decided:
 def write_decided(folder: Path, decided: Decided) -> None:
     """Both files; the one that counts last."""
     folder.mkdir(parents=True, exist_ok=True)
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    factors = list(decided.tried[0].levels)
-    writer.writerow(["reading", "taken", "reason", "survival_pct", "meals", "drinks", *factors])
+    heads = ["reading", "taken", "reason", "survival_pct", "meals", "drinks", *decided.tried[0].levels]
+    rows = list[list[object]]()
     for tried in decided.tried:
         reason = tried.reason or ("" if tried.taken else "sound, and not needed")
-        writer.writerow([tried.reading, "yes" if tried.taken else "no", reason, f"{tried.survival:.2f}", tried.meals,
-                         tried.drinks, *tried.levels.values()])
-    write_bytes(folder / TABLE, sink.getvalue().encode())
+        rows.append([tried.reading, "yes" if tried.taken else "no", reason, f"{tried.survival:.2f}", tried.meals,
+                     tried.drinks, *tried.levels.values()])
+    write_bytes(folder / TABLE, csv_bytes(heads, rows))
     write_json(folder / FILE, dataclasses.asdict(decided))
 
 

@@ -7,7 +7,6 @@ import dataclasses
 import inspect
 import math
 import random
-import tempfile
 import typing
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from attnlab import registry
 from attnlab.settings import build, defaults_of
+from attnlab.tables.scratch import scratch
 from attnlab.testing.build import config, node, part_of
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def interrupted(group: str, name: str, settings: dict[str, Any]) -> tuple[dict[s
 
     def kill(*_: int) -> None:
         raise _Interrupted
-    with tempfile.TemporaryDirectory() as home:
+    with scratch() as home:
         plan = plan_of(group, name, settings, checkpoint_minutes=0)
         with contextlib.suppress(_Interrupted):
             play_run(plan.with_seed(plan.settings.seed), folder=Path(home), progress=kill,

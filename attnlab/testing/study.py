@@ -9,6 +9,7 @@ from typing import Any
 
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import load
+from attnlab.tables.scratch import scratch
 from attnlab.testing.build import config
 
 SMALL = {"train_episodes": 6, "validation_episodes": 2, "max_cycles": 200, "record": "last"}
@@ -32,7 +33,7 @@ def plant(folder: Path, seeds: tuple[int, ...] = (0, 1, 2), curiosities: tuple[s
 @cache
 def _home() -> tempfile.TemporaryDirectory[str]:
     """Goes with the process."""
-    return tempfile.TemporaryDirectory(prefix="attnlab-studies-")
+    return scratch()
 
 
 @cache

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 from typing import Any
 
 from attnlab.probes.base import Probe
 from attnlab.robot.folder import run_to_folder
 from attnlab.tables.schema import TABLES
+from attnlab.tables.scratch import scratch
 from attnlab.testing.build import config, make, node, run
 
 INFO: dict[str, Any] = {"run": "watched", "key": "k", "overrides": [], "swept": {}}
@@ -44,7 +44,7 @@ PROBE = (columns_as_declared, meanings_said)
 
 def touches_nothing(name: str, **settings: Any) -> None:
     """The tables of a run are the same bytes with it and without it, and it raises nothing."""
-    with tempfile.TemporaryDirectory() as place:
+    with scratch() as place:
         bytes_of: list[Any] = []
         for chosen in ({}, _chosen("callback", name, settings)):
             folder = Path(place) / str(len(bytes_of))

@@ -130,12 +130,13 @@ def test_csv_that_no_spreadsheet_runs(study, tmp_path):
     import pandas as pd
 
     from attnlab.export.__main__ import main as export
-    from attnlab.results.export import harmless
+    from attnlab.tables.csvs import harmless
     assert guarded(export, [str(study), "--csv", "--out", str(tmp_path)]) == 0
     result = load(study)
     for name in ("runs", "episodes", "behaviours", "policy", "cycles", "coverage"):
         frame, found = getattr(result, name), pd.read_csv(tmp_path / f"{name}.csv")
         assert list(found.columns) == list(frame.columns) and len(found) == len(frame)
     assert pd.read_csv(tmp_path / "episodes.csv")["survival"].tolist() == result.episodes["survival"].tolist()
-    assert [harmless(text) for text in ("=1+1", "@x", "-2", "plain", 3)] == ["'=1+1", "'@x", "'-2", "plain", 3]
+    assert [harmless(text) for text in ("=1+1", "@x", "-2", "-2+3", "plain", -3)] == ["'=1+1", "'@x", "-2", "'-2+3",
+                                                                                      "plain", -3]
     assert guarded(export, [str(study)]) == 2
