@@ -208,8 +208,8 @@ def children(pid: int) -> dict[int, str]:
 
 
 def sums(sweeps: list[dict[str, Any]]) -> dict[str, Any]:
-    """What the journal says in all. Its older lines are of short sweeps, and of lost work say the time since a claim,
-    not since the run began, which is left out."""
+    """What the journal says in all. Older lines name no kind of sweep (they are short), and of lost work they say the
+    time since a claim, which is left out."""
     kills = [kill for sweep in sweeps for kill in sweep["kills"]]
     over = sorted(kill["taken_over_s"] for kill in kills if kill["taken_over_s"] is not None)
     of = {kind: [sweep for sweep in sweeps if sweep.get("sweep", "short") == kind] for kind in SWEEPS}

@@ -30,7 +30,7 @@ def main() -> int:
     parser.add_argument("--runs", type=int, default=10_000, help="of the study (10000)")
     parser.add_argument("--home", type=Path, default=Path("outputs/many"), help="folder for it, emptied before")
     parser.add_argument("--report", action="store_true", help="draw its report, too (minutes)")
-    parser.add_argument("--publish", action="store_true", help=f"store the figures of this size in {RESULT.relative_to(ROOT)}")
+    parser.add_argument("--publish", action="store_true", help=f"store them in {RESULT.relative_to(ROOT)}")
     given = parser.parse_args()
     home = given.home.resolve()
     shutil.rmtree(home, ignore_errors=True)

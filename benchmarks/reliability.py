@@ -122,8 +122,8 @@ def _kills(k: dict[str, Any]) -> list[str]:
         f"| the same with checkpoints, since the last | median {lost['kept'][0]:.1f} s, most {lost['kept'][1]:.1f} s |",
         "",
         "A run costs at most what was done since its last checkpoint, or all of a short one; one is kept after the "
-        f"episode in which its time comes. Seconds are those of a clock on the wall, on a machine with other work.{over}",
-        ""]
+        f"episode in which its time comes. Seconds are those of a clock on the wall, on a machine with other work."
+        f"{over}", ""]
 
 
 def _inputs(found: dict[str, int]) -> list[str]:
