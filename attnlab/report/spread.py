@@ -17,6 +17,7 @@ from attnlab.report.page import Section, table, told_of
 from attnlab.report.plates import chip
 from attnlab.results.conditions import Conditions
 from attnlab.results.summary import shown, summary_frame
+from attnlab.tables.csvs import frame_csv
 
 # Groups of claims by the share of readings in which they hold: (least share, words, class of the chip).
 GROUPS = ((0.9, "in nearly all", "v-reproduced"), (0.5, "in most", "v-compatible"), (0.1, "in some", "v-direction"),
@@ -99,7 +100,7 @@ def conditions(claims: Claims, of: Conditions, combinations: Combinations) -> tu
     """A row a role of the claims: what its robots are like over all readings, for the page; every condition, as CSV."""
     named = of.study.named()
     frame = summary_frame(of.study, named)
-    csv = frame.to_csv(index=False, float_format="%.6g").encode()
+    csv = frame_csv(frame, "%.6g")
     columns = [name for name in frame.columns if name not in ("condition", "runs", "activations")]
     rows = []
     for role in claims.roles.values():
