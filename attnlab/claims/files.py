@@ -144,7 +144,7 @@ def _check_setting(name: str, where: str) -> None:
 def _check_option(name: str, value: Any, where: str) -> None:
     """A part that nobody registered and no file describes is played by no run."""
     if name in GROUPS and isinstance(value, str):
-        known = {part for group, part in registry.parts if group == name} | \
+        known = {option for spec in registry.parts.values() if spec.group == name for option in spec.options} | \
             {file.stem for home in config_homes(name) for file in home.glob("*.yaml")}
         if known and value not in known:
             raise ConfigError(f"{where}.{name}", f"no {name} is called '{value}'", nearest(value, known))

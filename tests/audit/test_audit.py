@@ -106,4 +106,7 @@ def test_command(capsys):
     assert main([]) == 0
     said = capsys.readouterr().out
     assert "0.61 <= (12 - 1150/204) / 11" in said and "N = 1150" in said
+    assert main(["--all"]) == 0
+    everything = capsys.readouterr().out
+    assert " fits " in everything and " fits " not in said
     assert guarded(main, ["no_such_table"]) == 2
