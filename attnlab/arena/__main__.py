@@ -1,13 +1,16 @@
 """``python -m attnlab.arena``: all ways to decide when to look, in worlds and on logs, on one page.
 
-    python -m attnlab.arena --log FILE                          every way on a log, in blocks
-    python -m attnlab.arena --worlds paper,open --seeds 10      every way in worlds, as a study that can be resumed
+    python -m attnlab.arena                                     every way in the four worlds, 10 seeds
+    python -m attnlab.arena --worlds all --log FILE --log FILE --read FILE     and on logs, and logs that are only read
+    python -m attnlab.arena --log FILE                          every way on a log, in blocks, and in no world
     python -m attnlab.arena --study outputs/STUDY               the same of a study that is there
     python -m attnlab.arena --log FILE --ways q_learning,mine   some ways, one's own among them
     python -m attnlab.arena --log FILE --carry RUN              and a clock that was learned in simulation
+    python -m attnlab.arena --log FILE --train-prices 0.25,1    and ways that learned at other prices of a look
+    python -m attnlab.arena --cap 4 --look-cost 2,8             all under a cap of looks a second; e_nb of eq 10, swept
     python -m attnlab.arena --log FILE --add THEIRS.jsonl       and results of others
 
-Writes ``index.html``, ``arena.md`` and ``leaderboard.jsonl`` to --out (outputs/arena).
+Writes ``index.html``, ``arena.md``, ``standings.csv``, ``ranks.csv``, ``leaderboard.jsonl`` to --out (outputs/arena).
 """
 
 from __future__ import annotations
@@ -16,22 +19,24 @@ import argparse
 import shlex
 import sys
 from collections.abc import Sequence
-from pathlib import Path
+from typing import Any
 
-from attnlab.arena.board import Row, merged, read_board, write_board
-from attnlab.arena.drive import Decide, Drive, Task, read_drive
-from attnlab.arena.page import page, plain, strip
-from attnlab.arena.places import carried_rows, fixed_curve, log_rows, world_overrides, world_rows
-from attnlab.arena.summary import Standing, standings
-from attnlab.arena.ways import BETWEEN, DEFAULT, EPOCHS, decide_by, make, train, way
+from attnlab.arena import worlds
+from attnlab.arena.asked import checked, parsed, places_of
+from attnlab.arena.board import merged, read_board, write_board
+from attnlab.arena.drive import Drive, Task, read_drive, read_only
+from attnlab.arena.page import page
+from attnlab.arena.places import Trial, carried_rows, deciders, fixed_curve, future_rows, log_rows
+from attnlab.arena.strips import strip, world_strips
+from attnlab.arena.summary import standings
+from attnlab.arena.ways import BETWEEN, DEFAULT, learning
+from attnlab.arena.words import plain, ranks_csv, standings_csv
 from attnlab.console import guarded
-from attnlab.errors import ConfigError
 from attnlab.loading import load_all
 from attnlab.logs.command import settings_of
 from attnlab.logs.file import Log
-from attnlab.registry import make as make_part
-from attnlab.streams import stream
-from attnlab.tables.code import code
+from attnlab.results.load import load
+from attnlab.tables.code import code, package_hash
 from attnlab.tables.files import write_bytes
 
 NOTES = (
@@ -41,7 +46,13 @@ NOTES = (
     "Equal training: all learn from the same blocks of a log (the other half of it), or the same number of episodes. "
     "Ways that learn nothing were set by hand.",
     "Equal looks: 'saved' is the harm of a clock of fixed period that looks as often, less the way's own, on the same "
-    "blocks or seeds. A way outside of what fixed clocks span has no such number.",
+    "blocks or seeds. In worlds clocks of any mean period ('steady') stand between the fixed ones. A way outside of "
+    "what these span has no such number.",
+    "Better and worse are said of ways whose 'saved' differs from zero by the paired t test, corrected by Holm for all "
+    "ways of the place (5 % together); intervals are each on its own. 'of resamples': in how many of 1,000 resampled "
+    "sets of seeds or blocks a way is on the front.",
+    "Blocks of a log are not independent: those of one half were judged with the same learned clock, and neighbours "
+    "are alike. Intervals over blocks are therefore too narrow rather than too wide.",
     "On a log a clock does not move the robot: what was seen is what whoever drove then came by. Knowing in time is "
     "judged, not acting.",
     "Who knows the future is no rival: it is the least cost that any looks could have had, at this price.",
@@ -50,87 +61,66 @@ NOTES = (
 
 
 def main(argv: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(prog="python -m attnlab.arena", description="Compare ways to decide when to look.")
-    parser.add_argument("--ways", help="learners, with commas between; all that are here if left out")
-    parser.add_argument("--log", type=Path, action="append", default=[], help="a log of a real robot; may be repeated")
-    parser.add_argument("--set", action="append", default=[], dest="settings", metavar="NAME=VALUE", help="of the logs")
-    parser.add_argument("--worlds", default="", help="worlds, with commas between")
-    parser.add_argument("--study", type=Path, help="a study that is there: learners in worlds")
-    parser.add_argument("--seeds", type=int, default=6, help="of every way")
-    parser.add_argument("--price", type=float, default=0.5, help="of a look: in wrong cycles, or in lost survival")
-    parser.add_argument("--onset", type=float, default=0.6, help="nearer than this is near, on logs, in m")
-    parser.add_argument("--epochs", type=int, default=EPOCHS, help="passes over what is learned on, on logs")
-    parser.add_argument("--carry", type=Path, action="append", default=[], help="a run whose clock is tried on logs")
-    parser.add_argument("--add", type=Path, action="append", default=[], help="a leaderboard of others")
-    parser.add_argument("--out", type=Path, default=Path("outputs/arena"), help="folder to write to")
-    parser.add_argument("overrides", nargs="*", help="of the study in worlds: train_episodes=100 ...")
-    given = parser.parse_intermixed_args(argv)
+    given = parsed(argv)
     load_all()
-    checked(given)
-    task = Task(given.onset, given.price)
     names = given.ways.split(",") if given.ways else [*DEFAULT, BETWEEN]
-    for name in names:
-        way(name, task)
-    told = {"command": f"python -m attnlab.arena {shlex.join(argv)}", "code": code()}
+    task, where = Task(given.onset, given.price), places_of(given)
+    checked(given, names, where, task)
+    told: dict[str, Any] = {"command": shlex.join(["python", "-m", "attnlab.arena", *argv]),
+                            "code": {**code(), "hash": package_hash(("arena", "logs"))}}
     added = [row for file in given.add for row in read_board(file)]
+    studies = [load(given.study)] if given.study else []
     drives = [read_drive(Log(file, settings_of(given.settings))) for file in given.log]
-    given.out.mkdir(parents=True, exist_ok=True)
-    rows: list[Row] = []
-    curves, strips = {}, {}
+    read = [read_only(Log(file, settings_of(given.settings))) for file in given.read]
+    carried = [row for drive in drives for run in given.carry for row in carried_rows(drive, run, task, told)]
+    if where:
+        from attnlab.cli.calls import swept
+        for typed in worlds.commands(names, where, given.seeds, given.name, given.cap, given.look_cost,
+                                     given.overrides):
+            folder = swept(typed)
+        studies.append(load(folder))
+    trials = [trial for drive in drives for trial in trials_of(drive, names, task, given)]
+    rows = [*log_rows(trials, told), *carried,
+            *(row for drive in drives for row in future_rows(drive, task, told))]
     for drive in drives:
         for line in drive.told:
             print(f"attnlab: {drive.name}: {line}", file=sys.stderr)
-        rows += log_rows(drive, names, task, given.seeds, told, given.epochs)
-        for run in given.carry:
-            rows += carried_rows(drive, run, task, told)
-        curves[drive.name] = {f"block {i}": curve for i, curve in enumerate(fixed_curve(drive, task))}
-        strips[drive.name] = strip(drive, drive.blocks()[1][0], task, deciders(drive, names, task, given.epochs))
-    if given.study:
-        rows += world_rows(given.study, {**told, "study": given.study.name})
-    if given.worlds:
-        from attnlab.cli.calls import swept
-        more = [*(() if any(o.startswith("simulator=") for o in given.overrides) else ("simulator=planar",)),
-                *given.overrides]
-        overrides = world_overrides(names, given.worlds.split(","), given.seeds, "arena_worlds", more)
-        rows += world_rows(swept(overrides), {**told, "overrides": overrides})
+    strips = {drive.name: strip(drive, drive.blocks()[1][0], task,
+                                deciders(drive, names, task, given.epochs, per_cycle(drive, given.cap)))
+              for drive in drives}
+    missing = []
+    for study in studies:
+        rows += worlds.world_rows(study, {**told, "study": study.name})
+        strips |= world_strips(study)
+        missing += worlds.told(study)
     rows = merged(rows, added)
-    found: dict[str, list[Standing]] = {}
-    for place in dict.fromkeys(row.place for row in rows):
-        found[place] = standings([row for row in rows if row.place == place], curves.get(place))
+    curves = {drive.name: fixed_curve(drive, task) for drive in drives}
+    found = {place: standings([row for row in rows if row.place == place], curves.get(place))
+             for place in dict.fromkeys(row.place for row in rows)}
+    given.out.mkdir(parents=True, exist_ok=True)
     write_board(rows, given.out / "leaderboard.jsonl")
-    write_bytes(given.out / "index.html", page(found, strips, given.price, told, NOTES).encode())
-    write_bytes(given.out / "arena.md", plain(found, given.price).encode())
+    for name, text in (("index.html", page(found, strips, given.price, told, [*missing, *NOTES], read)),
+                       ("arena.md", plain(found, given.price)), ("standings.csv", standings_csv(found)),
+                       ("ranks.csv", ranks_csv(found))):
+        write_bytes(given.out / name, text.encode())
     print(plain(found, given.price).partition("\n## ")[0].strip())
-    print(given.out / "index.html")
+    print(*(f"read only: {line}" for line in read), *missing, given.out / "index.html", sep="\n")
     return 0
 
 
-def checked(given: argparse.Namespace) -> None:
-    """Raise ConfigError for what cannot be, before anything runs."""
-    if not given.log and not given.worlds and not given.add and not given.study:
-        raise ConfigError("--log", "no place to compete in was named", "--log FILE, or --worlds paper,open")
-    for name, low, high in (("seeds", 1, 10_000), ("epochs", 1, 100_000), ("price", 0.0, 1e6), ("onset", 0.05, 1.0)):
-        value = getattr(given, name)
-        if not low <= value <= high:
-            raise ConfigError(f"--{name}", f"is {value}, must be from {low} to {high:g}")
-    if given.study and not given.study.is_dir():
-        raise ConfigError("--study", f"there is no folder {given.study}")
-    if given.carry and not given.log:
-        raise ConfigError("--carry", "is for logs", "--log FILE")
-    if given.overrides and not given.worlds:
-        raise ConfigError(given.overrides[0], "is for the study in worlds", "--worlds paper,open")
+def per_cycle(drive: Drive, cap: float | None) -> float | None:
+    """A cap a second as one a cycle of the log, on which there is one behaviour."""
+    return None if cap is None else cap * drive.cycle_s
 
 
-def deciders(drive: Drive, names: Sequence[str], task: Task, epochs: int) -> dict[str, Decide]:
-    """Each way, learned on the even blocks, as it decides on an odd one."""
-    found = {}
-    greedy = make_part("exploration", {"name": "greedy"}, None)
-    for name in names:
-        learner = make(way(name, task), task, 0)
-        if learner.learns:
-            train(learner, drive, [s for block in drive.blocks()[0::2] for s in block], task, 0, epochs)
-        learner.start()
-        found[name] = decide_by(learner, greedy, stream(0, "judged", 1))
+def trials_of(drive: Drive, names: Sequence[str], task: Task, given: argparse.Namespace) -> list[Trial]:
+    """All ways on a drive, and those that learn at other prices as well."""
+    free = per_cycle(drive, given.cap)
+    found = [Trial(drive, name, name, task, given.seeds, given.epochs, free) for name in names]
+    for price in given.train_prices:
+        other = Task(task.onset_m, price)
+        found += [Trial(drive, name, f"{name} price={price:g}", other, given.seeds, given.epochs, free)
+                  for name in names if learning(name, other)]
     return found
 
 

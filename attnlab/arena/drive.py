@@ -13,7 +13,7 @@ from attnlab.logs.file import Log
 from attnlab.logs.sonars import nearest_ahead
 
 BLOCKS = 8
-LEAST = 200  # scans, below which there is nothing to learn from and to judge
+LEAST = 300  # scans, below which there is nothing to learn from and to judge
 Decide = Callable[[int, int], int]  # (index of the period in force, percept from 0) -> index of the next period
 
 
@@ -54,10 +54,26 @@ def read_drive(log: Log) -> Drive:
         times.append(scan.time_s)
     if len(near) < LEAST:
         raise ConfigError("--log", f"{log.path.name} has {len(near)} scans that can be used; judging needs {LEAST}",
-                          "A short log can be appraised: python -m attnlab.appraise --log FILE")
+                          "A short one can be read (--read FILE) or appraised: python -m attnlab.appraise --log FILE")
     gaps = sorted(b - a for a, b in pairwise(times))
     return Drive(Path(log.path.name).name.partition(".")[0], tuple(near), tuple(starts), gaps[len(gaps) // 2],
                  tuple(log.ledger.lines()))
+
+
+def read_only(log: Log) -> str:
+    """What is in a log that nobody competes on, in a line."""
+    times, beams, near = list[float](), 0, list[float]()
+    for scan in log:
+        times.append(scan.time_s)
+        beams = len(scan.ranges_m)
+        if (value := nearest_ahead(scan)) is not None:
+            near.append(value)
+    if len(times) < 2:
+        raise ConfigError("--read", f"{log.path.name} holds {len(times)} scans")
+    gaps = sorted(b - a for a, b in pairwise(times))
+    closest = f", the nearest at {min(near):.2f} m" if near else ""
+    return (f"{log.path.name} ({log.kind}): {len(times)} scans of {beams} ranges in {times[-1] - times[0]:.0f} s, one "
+            f"every {gaps[len(gaps) // 2]:.2f} s{closest}; {'; '.join(log.ledger.lines()) or 'nothing skipped'}")
 
 
 @dataclass(frozen=True)

@@ -1,36 +1,81 @@
-"""Where ways compete: logs, played here, and worlds, played as a study."""
+"""Ways on logs, played here: on as many cores as there are."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from attnlab.arena.board import Row
-from attnlab.arena.drive import Drive, Score, Task, judge, oracle
-from attnlab.arena.ways import BETWEEN, compete, fixed, way
+from attnlab.arena.drive import Decide, Drive, Score, Task, judge, oracle
+from attnlab.arena.ways import compete, decide_by, fixed, make, train, way
 from attnlab.clock import Clock
 from attnlab.errors import ConfigError
+from attnlab.registry import make as make_part
+from attnlab.streams import stream
+from attnlab.tables.processes import cores
 
 ORACLE = "(knows the future)"
+WORTH = 400  # passes over a drive by all ways and seeds together, above which processes of their own pay
 
 
-def log_rows(drive: Drive, names: Sequence[str], task: Task, seeds: int, made: dict[str, Any], epochs: int
-             ) -> list[Row]:
-    """A row a way and block, the mean over seeds; and one of who knows the future."""
+@dataclass(frozen=True)
+class Trial:
+    """A way on a drive: what a process is asked for. ``called``: the way's name in the table; ``per_cycle``: looks a
+    cycle that it may not exceed."""
+    drive: Drive
+    name: str
+    called: str
+    task: Task
+    seeds: int
+    epochs: int
+    per_cycle: float | None = None
+
+    def __call__(self) -> list[list[Score]]:
+        """Of each seed, the score of each block."""
+        chosen = way(self.name, self.task, self.per_cycle)
+        return [compete(chosen, self.drive, self.task, seed, self.epochs) for seed in range(self.seeds)]
+
+
+def log_rows(trials: Sequence[Trial], made: Mapping[str, Any], jobs: int | None = None) -> list[Row]:
+    """A row a trial and block, the mean over seeds; the same whatever the number of processes."""
     rows = []
-    for name in names:
-        chosen = way(name, task)
-        runs = [compete(chosen, drive, task, seed, epochs) for seed in range(seeds)]
+    for trial, runs in zip(trials, played(trials, jobs), strict=True):
+        chosen = way(trial.name, trial.task, trial.per_cycle)
+        about = {**made, "settings": dict(chosen.node), "seeds": trial.seeds, "price": trial.task.price}
         for block, scores in enumerate(zip(*runs, strict=True)):
-            rows.append(_row(drive, name, block, scores, chosen.between,
-                             {**made, "settings": dict(chosen.node), "seeds": seeds}))
-    rows += [_row(drive, ORACLE, block, [oracle(drive, stretches, task)], False, made)
-             for block, stretches in enumerate(drive.blocks())]
+            rows.append(_row(trial.drive, trial.called, block, scores, chosen.between, about))
     return rows
 
 
-def carried_rows(drive: Drive, run: Path, task: Task, made: dict[str, Any]) -> list[Row]:
+def played(trials: Sequence[Trial], jobs: int | None = None) -> Iterator[list[list[Score]]]:
+    """What the trials came to, in their order."""
+    jobs = min(jobs or cores(), len(trials))
+    if jobs < 2 or sum(trial.seeds * trial.epochs for trial in trials) < WORTH:
+        yield from (trial() for trial in trials)
+        return
+    with get_context("spawn").Pool(jobs, _begin) as pool:
+        yield from pool.imap(_play, trials)
+
+
+def _begin() -> None:
+    from attnlab.loading import load_all
+    load_all()
+
+
+def _play(trial: Trial) -> list[list[Score]]:
+    return trial()
+
+
+def future_rows(drive: Drive, task: Task, made: Mapping[str, Any]) -> list[Row]:
+    """Who knows the future, on every block."""
+    return [_row(drive, ORACLE, block, [oracle(drive, stretches, task)], False, made)
+            for block, stretches in enumerate(drive.blocks())]
+
+
+def carried_rows(drive: Drive, run: Path, task: Task, made: Mapping[str, Any]) -> list[Row]:
     """A clock that AVOID learned in a run, on every block of a log."""
     clock = Clock.from_run(str(run), "avoid")
     if (clock.bins, clock.low, clock.high) != (task.bins, 0.0, task.sigma_max_m) or \
@@ -42,13 +87,27 @@ def carried_rows(drive: Drive, run: Path, task: Task, made: dict[str, Any]) -> l
                  {**made, "settings": clock.about}) for block, stretches in enumerate(drive.blocks())]
 
 
-def fixed_curve(drive: Drive, task: Task) -> list[list[tuple[float, float]]]:
+def fixed_curve(drive: Drive, task: Task) -> dict[str, list[tuple[float, float]]]:
     """(looks, harm) of clocks of fixed period on each block."""
-    return [[(s.looks / s.cycles, (s.blind + s.needless) / s.cycles) for s in scores]
-            for scores in zip(*fixed(drive, task), strict=True)]
+    return {f"block {block}": [(s.looks / s.cycles, (s.blind + s.needless) / s.cycles) for s in scores]
+            for block, scores in enumerate(zip(*fixed(drive, task), strict=True))}
 
 
-def _row(drive: Drive, name: str, block: int, scores: Sequence[Score], between: bool, made: dict[str, Any]) -> Row:
+def deciders(drive: Drive, names: Sequence[str], task: Task, epochs: int, per_cycle: float | None
+             ) -> dict[str, Decide]:
+    """Each way, learned on the even blocks, as it decides on an odd one."""
+    found = {}
+    greedy = make_part("exploration", {"name": "greedy"}, None)
+    for name in names:
+        learner = make(way(name, task, per_cycle), task, 0)
+        if learner.learns:
+            train(learner, drive, [s for block in drive.blocks()[0::2] for s in block], task, 0, epochs)
+        learner.start()
+        found[name] = decide_by(learner, greedy, stream(0, "judged", 1))
+    return found
+
+
+def _row(drive: Drive, name: str, block: int, scores: Sequence[Score], between: bool, made: Mapping[str, Any]) -> Row:
     n, total = len(scores), Score()
     for score in scores:
         total.add(score)
@@ -56,36 +115,4 @@ def _row(drive: Drive, name: str, block: int, scores: Sequence[Score], between: 
     detail = {"onsets": total.onsets / n, "missed": total.missed / n, "blind": total.blind / total.cycles,
               "delay_s": total.delays / seen * drive.cycle_s if seen else 0.0}
     return Row(drive.name, name, f"block {block}", total.looks / total.cycles,
-               (total.blind + total.needless) / total.cycles, detail, between, made)
-
-
-def world_rows(study: Path, made: dict[str, Any]) -> list[Row]:
-    """A row a run: looks a cycle and behaviour, lost survival (1 - its mean), from validation episodes."""
-    from attnlab.results.load import load
-    from attnlab.results.states import read_config
-    loaded = load(str(study))
-    episodes, behaviours = loaded.episodes, loaded.behaviours
-    episodes = episodes[episodes["phase"] == "validation"]
-    behaviours = behaviours[behaviours["phase"] == "validation"]
-    if episodes.empty:
-        raise ConfigError("--study", f"{study} holds no validation episode")
-    rows = []
-    for run, mine in episodes.groupby("run"):
-        looks = behaviours[behaviours["run"] == run]
-        cycles = float(mine["cycles"].sum())
-        config = read_config(study / str(run)) or {}
-        survival = float(mine["survival"].mean())
-        rows.append(Row(f"world {config['world']['name']}", config["learner"]["name"], f"seed {config['seed']}",
-                        float(looks["activations"].sum()) / cycles / looks["behaviour"].nunique(),
-                        min(1.0, max(0.0, 1.0 - survival)),
-                        {"deaths": float((mine["death"] != "none").mean()), "safety": float(mine["safety_mean"].mean()),
-                         "energy": float(mine["energy_mean"].mean())}, False, made))
-    return rows
-
-
-def world_overrides(names: Sequence[str], worlds: Sequence[str], seeds: int, study: str, more: Sequence[str]
-                    ) -> list[str]:
-    """What to type for the study of ways x worlds."""
-    playing = [name for name in names if name != BETWEEN]
-    return [f"learner={','.join(playing)}", f"world={','.join(worlds)}", f"seed=0-{seeds - 1}", "curiosity=none",
-            f"study={study}", "picture=false", "report=false", "record=none", *more]
+               (total.blind + total.needless) / total.cycles, detail, between, dict(made))

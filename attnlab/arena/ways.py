@@ -32,17 +32,17 @@ class Way:
     @property
     def between(self) -> bool:
         """Does it learn from the percepts between looks?"""
-        return self.node.get("observe") == "all"
+        return dict(self.node.get("of", self.node)).get("observe") == "all"
 
 
-def way(name: str, task: Task) -> Way:
+def way(name: str, task: Task, cap: float | None = None) -> Way:
     """The way of this name: a registered learner, or ``tempo_rl(all)``. On a drive the price of a look is in the reward
-    of every way; ways that plan by costs of their own are given the same price. Raises ConfigError."""
+    of every way; ways that plan by costs of their own are given the same price. ``cap``: looks a machine cycle that it
+    may not exceed. Raises ConfigError."""
     part = name.partition("(")[0]
-    spec = registry.find("learner", part)
-    if spec is None or (part != name and name != BETWEEN):
+    if part != name and name != BETWEEN:
         raise registry.unknown("learner", name, "--ways")
-    node = dict(spec.nodes()[part])
+    node = spec_of(part)
     if name == BETWEEN:
         node["observe"] = "all"
     if "look_cost" in node:
@@ -51,7 +51,17 @@ def way(name: str, task: Task) -> Way:
         node["below"] = {BEHAVIOUR: task.onset_m / task.sigma_max_m}
     if part == "evolution":
         raise ConfigError("--ways", "evolution plays whole episodes, which a log has not", "It can compete in worlds")
+    if cap is not None:
+        node = {**spec_of("capped"), "of": node, "looks_per_s": cap / Reading().dt_s}
     return Way(name, node)
+
+
+def spec_of(name: str) -> dict[str, Any]:
+    """The node of a learner with its defaults."""
+    spec = registry.find("learner", name)
+    if spec is None:
+        raise registry.unknown("learner", name, "--ways")
+    return dict(spec.nodes()[name])
 
 
 def make(chosen: Way, task: Task, seed: int) -> Learner:
@@ -60,6 +70,11 @@ def make(chosen: Way, task: Task, seed: int) -> Learner:
                              stream(seed, "learner", BEHAVIOUR))
     made: Learner = registry.make("learner", chosen.node, context)
     return made
+
+
+def learning(name: str, task: Task) -> bool:
+    """Does the way learn anything?"""
+    return make(way(name, task), task, 0).learns
 
 
 def decide_by(learner: Learner, exploration: Exploration, draw: Random) -> Decide:

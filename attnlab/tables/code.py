@@ -46,13 +46,13 @@ def code() -> dict[str, Any]:
 
 
 @cache
-def package_hash() -> str:
+def package_hash(more: tuple[str, ...] = ()) -> str:
     """16 digits of the sha256 of every Python file that a run's numbers come from: all of the package but what reads
-    studies, what drives them, and the command line."""
+    studies, what drives them, and the command line. ``more``: packages whose text decides a number beside runs."""
     digest = hashlib.sha256()
     for file in sorted(PACKAGE.rglob("*.py")):
         name = file.relative_to(PACKAGE)
-        if name.parts[0] in NUMBERS or (len(name.parts) == 1 and name.stem in NUMBERS):
+        if name.parts[0] in (*NUMBERS, *more) or (len(name.parts) == 1 and name.stem in NUMBERS):
             digest.update(f"{name.as_posix()}\0".encode() + file.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
 

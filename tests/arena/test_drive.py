@@ -81,7 +81,7 @@ def test_a_log_becomes_a_drive(tmp_path):
     assert made.cycle_s == pytest.approx(0.1) and made.near_m[49] == 0.5 and made.near_m[50] == 2.0
     assert made.told == ("1 x hole of more than 1 s (first: line 152)",)
     (tmp_path / "b.csv").write_text("t_s,r10\n" + "\n".join(rows[:100]) + "\n")
-    with pytest.raises(ConfigError, match="judging needs 200"):
+    with pytest.raises(ConfigError, match="judging needs 300"):
         read_drive(Log(tmp_path / "b.csv"))
 
 
