@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import signal
 import sys
 import threading
@@ -17,6 +18,11 @@ from typing import Any, TextIO
 from attnlab.errors import ConfigError
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC)
+
+
+def table_width(otherwise: int = 80) -> int:
+    """Columns that a table may have: those of COLUMNS or of the terminal, ``otherwise`` where there is neither."""
+    return shutil.get_terminal_size((otherwise, 24)).columns
 
 
 class Lenient:

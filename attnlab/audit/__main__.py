@@ -12,7 +12,7 @@ from attnlab.audit.certificate import certify
 from attnlab.audit.checks import FITS, IMPOSSIBLE, STRAINED, Finding, audit
 from attnlab.audit.table import Table, load_table
 from attnlab.claims import DEFAULT as CLAIMS
-from attnlab.console import guarded
+from attnlab.console import guarded, table_width
 from attnlab.errors import ConfigError
 
 
@@ -43,9 +43,7 @@ def _print(table: Table, findings: list[Finding], everything: bool) -> None:
     from rich.console import Console
     from rich.table import Table as Shown
     from rich.text import Text
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=140)
+    console = Console(width=table_width(140))
     shown = Shown(title=Text(table.title), title_justify="left", show_lines=True)
     for head in ("check", "for", "N", "arithmetic", "outcome"):
         shown.add_column(head)

@@ -18,7 +18,7 @@ from pathlib import Path
 from attnlab.calibrate.table import Row, as_csv, as_markdown, calibrate, read_seeds
 from attnlab.claims import DEFAULT
 from attnlab.claims.files import load_claims
-from attnlab.console import guarded
+from attnlab.console import guarded, table_width
 from attnlab.errors import ConfigError
 from attnlab.tables.files import write_bytes
 
@@ -81,8 +81,7 @@ def _show(rows: Sequence[Row], out: Path) -> None:
     for line in as_markdown(rows).splitlines()[2:]:
         cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
         shown.add_row(cells[0].partition(" ")[0], *cells[1:])
-    console = Console()
-    (console if console.is_terminal else Console(width=100)).print(shown)
+    Console(width=table_width()).print(shown)
     print(f"{'every rule is' if sound(rows) else 'NOT every rule is'} wrong in 5 % of the studies or fewer")
     print(f"table    {out / 'calibration.csv'}")
 

@@ -11,6 +11,7 @@ import numpy as np
 from attnlab.claims.files import Claims
 from attnlab.claims.findings import Finding
 from attnlab.claims.roles import Combinations
+from attnlab.console import table_width
 from attnlab.report.explorer import short
 from attnlab.report.multiverse import Multiverse
 from attnlab.report.page import Section, table, told_of
@@ -134,7 +135,4 @@ def print_table(found: Multiverse) -> None:
     for row, (key, claim) in enumerate(found.claims.items()):
         value, testable = found.share(row)
         rows.add_row(key, Text(claim.title), f"{100 * value:.0f} %" if testable else "-", str(testable))
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=118)
-    console.print(rows)
+    Console(width=table_width(118)).print(rows)

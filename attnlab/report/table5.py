@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from attnlab.audit.table import Cell, Table
+from attnlab.console import table_width
 from attnlab.measures.frames import of_seeds, phase_rows
 from attnlab.measures.once import once_a_study
 from attnlab.results.conditions import Conditions, Runs
@@ -160,10 +161,7 @@ def print_table(of: list[Row], title: str) -> None:
     for quantity in dict.fromkeys(row.quantity for row in of):
         mine = [row for row in of if row.quantity == quantity]
         shown.add_row(mine[0].name, *(Text(text) for row in mine for text in texts(row)))
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=118)
-    console.print(shown)
+    Console(width=table_width(118)).print(shown)
     print("here: episodes that were survived, ± within a seed (between seeds); all: every episode, with penalties")
     if any(row.undecided for row in of):
         print("† the paper's text does not tell which of two cells this is")

@@ -9,6 +9,7 @@ from html import escape
 from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Verdict
 from attnlab.claims.parts import PAIRED
+from attnlab.console import table_width
 from attnlab.report.page import Section
 from attnlab.report.plates import chip
 from attnlab.tables.csvs import csv_bytes
@@ -146,7 +147,4 @@ def print_table(verdicts: Sequence[Verdict], where: str = "") -> None:
     for v in verdicts:
         shown.add_row(v.id, Text(v.claim.title), Text(v.word, style=v.verdict.style), _n(v.lead.effect, ".2f"),
                       _n(v.p_holm))
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=118)
-    console.print(shown)
+    Console(width=table_width(118)).print(shown)

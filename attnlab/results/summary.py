@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from attnlab.console import table_width
 from attnlab.results.load import Study
 from attnlab.tables.numbers import kept, needs_in
 
@@ -109,7 +110,7 @@ def _print_table(study: Study, named: Mapping[str, str], width: int | None) -> N
     """Means over seeds, a row a condition."""
     from rich.console import Console
     frame = summary_frame(study, named)
-    console = Console(width=width or (None if _is_terminal() else 110), highlight=False)
+    console = Console(width=width or table_width(), highlight=False)
     heads = {"early": "survival\nearly", "late": "survival\nlate", "validation": "survival\nvalid.",
              "activations": "activations\n" + " ".join(behaviours_of(study, named))}
     rows = [shown({str(name): value for name, value in row.items()}) for row in frame.to_dict("records")]
@@ -155,8 +156,3 @@ def _table(columns: list[list[str]], width: int) -> Table:
     for row in zip(*(cells for _, *cells in columns), strict=True):
         table.add_row(*map(Text, row))
     return table
-
-
-def _is_terminal() -> bool:
-    import sys
-    return sys.stdout.isatty()

@@ -49,3 +49,14 @@ def test_columns_go_where_there_is_room():
     assert parts_of(columns, 80) == [columns]
     assert parts_of(columns, 23) == [columns[:3], [columns[0], columns[3]]]
     assert parts_of(columns, 5) == [[columns[0], column] for column in columns[1:]]
+
+
+def test_where_there_is_no_terminal(study, monkeypatch, capsys):
+    """80 columns, or what COLUMNS says."""
+    for given, width in ((None, 80), ("60", 60)):
+        monkeypatch.delenv("COLUMNS", raising=False)
+        if given:
+            monkeypatch.setenv("COLUMNS", given)
+        print_summary(study, {"litman": LONG, "none": "NCR"}, {}, {})
+        longest = max(map(len, capsys.readouterr().out.partition("results ")[0].splitlines()))
+        assert width - 20 < longest <= width
