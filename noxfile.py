@@ -61,8 +61,9 @@ def docs(session: nox.Session) -> None:
 
 @nox.session(default=False)
 def site(session: nox.Session) -> None:
-    """The site into site/; warnings are errors."""
+    """The site into site/; warnings are errors, and so is a notebook that no longer gives what it shows."""
     session.install("-e", ".[docs]")
+    session.run("python", "docs/notebooks/make.py", "--check")
     session.run("mkdocs", "build", "--strict", *session.posargs)
 
 

@@ -5,15 +5,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from attnlab import plot
-    from attnlab.api import compose, load, simulate, sweep
+    from attnlab.api import compose, load, simulate, sweep, verdicts
     from attnlab.clock import Clock
 
 __version__ = "0.1.0"
-__all__ = ["Clock", "__version__", "compose", "load", "plot", "simulate", "sweep"]
+__all__ = ["Clock", "__version__", "compose", "load", "plot", "simulate", "sweep", "verdicts"]
 
 
 def __getattr__(name: str) -> Any:
-    """compose, simulate, sweep and load, of :mod:`attnlab.api`, :mod:`attnlab.plot`, and the Clock of
+    """compose, simulate, sweep, load and verdicts, of :mod:`attnlab.api`, :mod:`attnlab.plot`, and the Clock of
     :mod:`attnlab.clock`: imported when asked for."""
     if name == "plot":
         return import_module("attnlab.plot")

@@ -7,6 +7,7 @@ For a notebook or a script::
     tables = attnlab.simulate(config)                               # its five tables, as pandas frames
     study = attnlab.sweep(["+experiment=cr_vs_ncr", "seed=0-4"])    # many runs, kept in outputs/
     attnlab.plot.survival(study)                                    # the report's figures
+    attnlab.verdicts(study)                                         # and its verdicts
 
 For a plugin::
 
@@ -16,6 +17,7 @@ For a plugin::
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from attnlab.behaviours.base import Behaviour, Command, Senses
@@ -49,7 +51,7 @@ __all__ = [
     "Curiosity", "Exploration", "Figure", "Fusion", "Layout", "Learner", "Lived", "Measure", "Need", "Needs", "Penalty",
     "Phase", "Probe", "Senses", "Simulator", "Solid", "Studies", "Study", "Tables", "World", "avoid_reward",
     "check_start", "compose", "load", "need_reward", "outer_walls", "register", "setting", "simulate", "stream",
-    "sweep"]
+    "sweep", "verdicts"]
 
 
 class Tables(NamedTuple):
@@ -87,3 +89,27 @@ def sweep(overrides: Sequence[str]) -> Study:
     "seed=0-4", "study=mine"])``. Runs that fail are rows of its ``runs``. Raises ConfigError."""
     from attnlab.cli.calls import swept
     return Study(swept(list(overrides)))
+
+
+def verdicts(study: Study | str | Path, claims: str | None = None) -> pd.DataFrame:
+    """What a claims file says of a study, by the rules of the report: a row a comparison, with the columns of
+    verdicts.csv and ``word``, the verdict as the page has it (*supported* of one's own). ``claims``: name or path of
+    the file; the one that the runs were started under if left out. Raises ConfigError."""
+    from io import BytesIO
+
+    import pandas as pd
+
+    from attnlab.claims.files import load_claims
+    from attnlab.claims.judge import judge
+    from attnlab.claims.roles import strata
+    from attnlab.loading import load_all
+    from attnlab.report.build import claims_of
+    from attnlab.report.verdicts import as_csv
+    from attnlab.results.conditions import Conditions
+    load_all()
+    study = load(study)
+    rules = load_claims(claims or claims_of(study))
+    conditions = Conditions(study, rules.labels)
+    judged = {name: judge(rules, conditions, settings) for name, settings in strata(rules, conditions).items()}
+    words = [verdict.word for of in judged.values() for verdict in of for _ in verdict.parts]
+    return pd.read_csv(BytesIO(as_csv(judged)), dtype={"unit": str}).assign(word=words)

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -57,15 +58,20 @@ def study(cluster: str, episodes: int) -> dict[str, float]:
 
 
 def command(cluster: str, episodes: int, runs: int) -> dict[str, float]:
-    """Wall and CPU seconds of a command and of all its processes. Raises RuntimeError if it fails."""
+    """Wall and CPU seconds of a study. Raises RuntimeError if it fails."""
+    return of_command(["-m", "simulator=planar", "engine=compiled", f"seed=0-{runs - 1}",
+                       f"train_episodes={episodes * 5 // 6}", f"validation_episodes={episodes // 6}", "picture=false",
+                       "report=false", f"cluster={cluster}"])
+
+
+def of_command(typed: Sequence[str]) -> dict[str, float]:
+    """Wall and CPU seconds of ``python -m attnlab`` in an empty folder, and of all its processes. Raises RuntimeError
+    if it fails."""
     ctypes.CDLL(None).prctl(SUBREAPER, 1, 0, 0, 0)
     with tempfile.TemporaryDirectory() as home:
         begin, cpu, status = time.perf_counter(), 0.0, 1
-        process = subprocess.Popen(
-            [sys.executable, "-m", "attnlab", "-m", "simulator=planar", "engine=compiled", f"seed=0-{runs - 1}",
-             f"train_episodes={episodes * 5 // 6}", f"validation_episodes={episodes // 6}", "picture=false",
-             "report=false", f"cluster={cluster}"], cwd=home, env={**os.environ, "PYTHONPATH": str(ROOT)},
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen([sys.executable, "-m", "attnlab", *typed], cwd=home, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(ROOT)})
         while True:
             try:
                 pid, code, used = os.wait3(0)
@@ -75,7 +81,7 @@ def command(cluster: str, episodes: int, runs: int) -> dict[str, float]:
             status = code if pid == process.pid else status
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode:
-            raise RuntimeError(f"cluster={cluster} failed")
+            raise RuntimeError(f"failed: {' '.join(typed)}")
     return {"wall_s": time.perf_counter() - begin, "cpu_s": cpu}
 
 

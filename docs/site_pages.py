@@ -1,10 +1,12 @@
 """What the site has beside the pages in docs/: the map from paper to code and the reference of all parts, both made
-from the code whenever the site is (``mkdocs build --strict``)."""
+from the code whenever the site is (``mkdocs build --strict``), and the notebooks as they were executed."""
 
 from __future__ import annotations
 
 import ast
+import base64
 import inspect
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -109,6 +111,29 @@ def parts() -> str:
     return "".join(text)
 
 
+def notebook(file: Path) -> tuple[str, dict[str, bytes]]:
+    """A notebook as a page, and its images by name."""
+    parts, images = [], dict[str, bytes]()
+    for number, cell in enumerate(json.loads(file.read_text())["cells"]):
+        source = "".join(cell["source"])
+        if cell["cell_type"] == "markdown":
+            parts.append(source)
+            continue
+        parts.append(f"````python\n{source}\n````")
+        for out in cell["outputs"]:
+            data = {kind: "".join(text) for kind, text in out.get("data", {}).items()}
+            if "image/png" in data:
+                name = f"{file.stem}-{number}.png"
+                images[name] = base64.b64decode(data["image/png"])
+                parts.append(f"![what the cell above draws]({name})")
+            elif "<table" in data.get("text/html", ""):
+                table = re.search(r"<table.*?>(.*)</table>", data["text/html"], re.DOTALL)
+                parts.append(f"<table>{re.sub(r' style=.*?>', '>', table[1]) if table else ''}</table>")
+            else:
+                parts.append(f"````text\n{(''.join(out.get('text', '')) or data.get('text/plain', '')).rstrip()}\n````")
+    return "\n\n".join(parts) + "\n", images
+
+
 PAGES = {"science.md": science, "parts.md": parts}
 LINK = re.compile(r"\[([^\]\[]*)\]\(([^)#\s]+)\)")
 
@@ -118,6 +143,10 @@ def on_files(files: Any, config: Any) -> Any:
     from mkdocs.structure.files import File
     for name, page in PAGES.items():
         files.append(File.generated(config, name, content=page()))
+    for book in sorted((DOCS / "notebooks").glob("*.ipynb")):
+        text, images = notebook(book)
+        for name, content in ((f"{book.stem}.md", text), *images.items()):
+            files.append(File.generated(config, f"notebooks/{name}", content=content))
     return files
 
 

@@ -110,7 +110,7 @@ def _print_table(study: Study, named: Mapping[str, str], width: int | None) -> N
     """Means over seeds, a row a condition."""
     from rich.console import Console
     frame = summary_frame(study, named)
-    console = Console(width=width or table_width(), highlight=False)
+    console = Console(width=width or table_width(), highlight=False, force_jupyter=False)
     heads = {"early": "survival\nearly", "late": "survival\nlate", "validation": "survival\nvalid.",
              "activations": "activations\n" + " ".join(behaviours_of(study, named))}
     rows = [shown({str(name): value for name, value in row.items()}) for row in frame.to_dict("records")]

@@ -195,6 +195,9 @@ def readme(text: str, folder: Path) -> str:
 
 
 def minutes(folder: Path, study: str) -> str:
-    """About how long a study takes on two cores, from the processor time of its runs."""
+    """How long a study takes, on two quiet cores to one, from the processor time of its runs and of its pilots."""
     with_ = found.made(folder, study)
-    return f"about {max(1, round(OVER * with_['cpu_s_of_runs'] / 120))} min on two cores" if with_ else "minutes"
+    if not with_:
+        return "minutes"
+    spent = OVER * (with_["cpu_s_of_runs"] + (with_.get("pilots") or {}).get("cpu_s", 0)) / 60
+    return f"{max(1, round(spent / 2))} to {max(2, round(spent))} min"

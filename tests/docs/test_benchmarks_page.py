@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import copy
+import json
 import re
 
 import pytest
 
-from benchmarks import asked, history, page
+from benchmarks import asked, first, history, page
 from benchmarks.run import LIMIT, RESULTS
 
 EVERY = history.results(RESULTS)
@@ -20,6 +21,13 @@ def test_the_pages_are_those_of_the_stored_results():
         text = (page.DOCS / name).read_text()
         assert text == page.filled(text, EVERY[-1])
         assert page.PLACE.search(text), name
+
+
+def test_the_readme_has_the_times_of_its_first_command():
+    readme, found = (first.ROOT / "README.md").read_text(), json.loads(first.RESULT.read_text())
+    assert first.MARK.search(readme) and first.said(readme, found) == readme
+    typed = first.first(readme)
+    assert found["command"] == " ".join(typed) and "seed=0-5" in typed
 
 
 def test_no_speed_is_typed_by_hand():

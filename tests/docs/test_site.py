@@ -16,23 +16,15 @@ from attnlab.paths import PACKAGE
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.fixture(scope="module")
-def made():
-    spec = importlib.util.spec_from_file_location("site_pages", ROOT / "docs" / "site_pages.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_every_equation_has_its_function(made):
-    rows = [line.split("|") for line in made.science().splitlines() if line.startswith("| (")]
+def test_every_equation_has_its_function(site_pages):
+    rows = [line.split("|") for line in site_pages.science().splitlines() if line.startswith("| (")]
     numbers = {int(number) for row in rows for number in re.findall(r"\((\d+)\)", row[3])}
     assert numbers == set(range(1, 14))
     assert all(".py`" in row[-2] for row in rows), "an equation that nobody calls"
 
 
-def test_every_part_is_there(made):
-    page = made.parts()
+def test_every_part_is_there(site_pages):
+    page = site_pages.parts()
     for spec in registry.parts.values():
         if Path(spec.origin).is_relative_to(PACKAGE):
             assert f"### {spec.group}: {spec.name}\n" in page
