@@ -11,6 +11,7 @@ from attnlab.figures.base import Figure
 from attnlab.figures.compared import SAFETY, VALID, asked, called, coloured, looks, outcome, point, values_of
 from attnlab.figures.panels import grid
 from attnlab.figures.style import GREY, empty
+from attnlab.figures.values import UNTOLD
 from attnlab.registry import register
 
 if TYPE_CHECKING:
@@ -101,5 +102,5 @@ def _panel(ax: Axes, found: list[Spent], shades: dict[str, str]) -> None:
         for k, one in enumerate(mine):
             x, y = one.place
             marker, colour = MARKERS[i % len(MARKERS)], shades.get(name, GREY)
-            point(ax, x, one.got, colour, marker, name if k == 0 else None)
+            point(ax, x, one.got, colour, marker, name if k == 0 else UNTOLD + name)
             point(ax, y, one.looks, colour, marker, across=True)

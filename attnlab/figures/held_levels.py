@@ -10,6 +10,7 @@ from attnlab.figures.base import Figure
 from attnlab.figures.compared import SAFETY, VALID, Asked, asked, difference, looks, outcome, point, values_of
 from attnlab.figures.panels import grid
 from attnlab.figures.style import OTHERS, VERMILLION, empty
+from attnlab.figures.values import UNTOLD
 from attnlab.measures.frames import episode_means, of_seeds
 from attnlab.measures.needs import units_of
 from attnlab.measures.once import once_a_study
@@ -46,7 +47,8 @@ class HeldLevels(Figure):
                 shift = 0.16 * (i - (len(lines) - 1) / 2)
                 colour = VERMILLION if len(lines) == 1 else OTHERS[i % len(OTHERS)]
                 for k, one in enumerate(held):
-                    point(ax, k + shift, of(one.runs), colour, MARKERS[i % len(MARKERS)], name if k == 0 else None)
+                    label = name if k == 0 else UNTOLD + name
+                    point(ax, k + shift, of(one.runs), colour, MARKERS[i % len(MARKERS)], label)
             if not ax.lines:
                 empty(ax, "not recorded")
                 continue

@@ -11,6 +11,7 @@ from attnlab.figures.episode import first_lines, last_episode
 from attnlab.figures.found import MOST, interval, sentence
 from attnlab.figures.panels import Line
 from attnlab.figures.style import GREY, WIDTH_IN, cut, empty, own_colours
+from attnlab.figures.values import Cells, tell
 from attnlab.measures.base import CannotMeasure
 from attnlab.measures.space import Coverage, visit_maps
 from attnlab.registry import register
@@ -92,6 +93,11 @@ def _map(ax: Axes, line: Line, layout: Layout | None, colour: dict[str, str]) ->
     shade = np.where(visits > 0, np.log10(np.maximum(visits, 1)), np.nan)
     ax.imshow(shade.T, origin="lower", extent=extent, cmap="Greys", vmin=-1.0, vmax=max(1.0, np.nanmax(shade) * 1.35),
               interpolation="nearest")
+    edges = CELL_M * np.arange(visits.shape[0] + 1), CELL_M * np.arange(visits.shape[1] + 1)
+    columns, rows = ([f"{name} {edge + CELL_M / 2:.2f} m" for edge in of[:-1]]
+                     for name, of in zip("xy", edges, strict=True))
+    said = [[f"{count:.0f}" if count else "" for count in row] for row in visits.T]
+    tell(ax, Cells(columns, rows, *edges, said, " visits"))
     assert layout is not None  # visit_maps has complained
     for solid in layout.solids:
         ax.fill(*zip(*solid.corners(), strict=True), color=colour[solid.kind], lw=0)

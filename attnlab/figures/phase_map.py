@@ -10,6 +10,7 @@ import numpy.typing as npt
 from attnlab.figures.base import Figure
 from attnlab.figures.compared import BETTER, EARLY, VALID, WORSE, Difference, asked, difference, survival
 from attnlab.figures.style import INK, WIDTH_IN
+from attnlab.figures.values import Cells, tell
 from attnlab.measures.once import once_a_study
 from attnlab.registry import register
 
@@ -122,6 +123,10 @@ def _panel(ax: Axes, of: dict[Place, Cell], well: float, steps: dict[tuple[float
         grid[ys.index(y), xs.index(x)] = step.value
     mesh = ax.pcolormesh(np.arange(len(xs) + 1) - 0.5, np.arange(len(ys) + 1) - 0.5, grid, cmap=shades, vmin=-most,
                          vmax=most, edgecolors="white", linewidth=0.8)
+    said = [[f"{steps[x, y].said(1)} points, {steps[x, y].seeds} seeds" if (x, y) in steps else "" for x in xs]
+            for y in ys]
+    tell(ax, Cells([f"{x:g} m" for x in xs], [f"{y:g} obstacles" for y in ys], np.arange(len(xs) + 1) - 0.5,
+                   np.arange(len(ys) + 1) - 0.5, said))
     for (x, y), step in steps.items():
         i, j = xs.index(x), ys.index(y)
         ax.text(i, j, f"{step.value:+.1f}", ha="center", va="center", fontsize=7.5, color=INK,

@@ -12,6 +12,7 @@ from attnlab.figures.base import Figure
 from attnlab.figures.episode import first_lines, period_colours
 from attnlab.figures.found import sentence
 from attnlab.figures.style import WIDTH_IN, empty
+from attnlab.figures.values import Cells, tell
 from attnlab.measures.base import CannotMeasure
 from attnlab.measures.policies import greedy, in_words
 from attnlab.registry import register
@@ -69,10 +70,13 @@ class Policies(Figure):
                     ax.text(percept - 1, i + 0.28, f"{most}/{of}", ha="center", va="center", fontsize=6.5,
                             color="white" if dark else "black")
             ax.imshow(grid, cmap=cmap, norm=norm, aspect="auto")
+            rows_of = [t.condition if t.level in ("none", "") else f"{t.condition}, {t.level}" for t in mine]
+            tell(ax, Cells([f"percept {i + 1}" for i in range(bins)], rows_of, np.arange(bins + 1) - 0.5,
+                           np.arange(len(mine) + 1) - 0.5, [[t.said(i + 1) for i in range(bins)] for t in mine],
+                           " seeds that visited it"))
             ax.set_title(name.upper())
             ax.set_xticks(range(bins), [str(i + 1) for i in range(bins)])
-            labels = [t.condition if t.level in ("none", "") else f"{t.condition}, {t.level}" for t in mine]
-            ax.set_yticks(range(len(mine)), labels if place % columns == 0 else [""] * len(mine))
+            ax.set_yticks(range(len(mine)), rows_of if place % columns == 0 else [""] * len(mine))
             ax.grid(False)
             ax.set_facecolor("#f1f1f1")
             ax.set_xlabel("percept bin")
@@ -94,6 +98,11 @@ class Learned(NamedTuple):
     behaviour: str
     level: str
     cells: dict[int, tuple[int, int, int]]
+
+    def said(self, percept: int) -> str:
+        """What was learned at a percept, for the pointer; empty where it was never visited."""
+        period, most, of = self.cells.get(percept, (0, 0, 0))
+        return f"period {period}, in {most} of {of}" if of else ""
 
     @property
     def words(self) -> str:

@@ -20,6 +20,7 @@ from attnlab.report import (
     forest,
     glance,
     multiverse,
+    plates,
     provenance,
     readings,
     seeds,
@@ -94,6 +95,7 @@ def build(study_path: Study | str | Path, out: str | Path | None, claims_name: s
             over = readings.Page(forest.first_screen(study, hiding.marks)) if of_all is None else \
                 readings.of(of_all, study.path, target)
         shown = [drawer.shown(name, of, told) for name, of in zip(wanted, figures.answers(done), strict=True) if of]
+    plates.choose(shown)
     if conditions.strata and not many:
         sections.append(seeds.section(study, target))
     sections.append(provenance.commands(study, sorted(file.name for file in target.glob("*.csv"))))

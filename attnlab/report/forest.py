@@ -97,7 +97,7 @@ def picture(rows: Sequence[Row], marks: Mapping[str, str] | None = None) -> str:
     body = "".join(f'<tr{_of(of.get(row.name))}><th scope="row">{escape(row.name)}</th><td>{_line(row, x)}</td>'
                    f"<td class=n>{escape(_told(row.value))}</td></tr>" for row in rows)
     scale = f'<span>{low:.0f} %</span><span>{high:.0f} %</span>'
-    return ('<div class="scroll" tabindex="0" role="region" aria-label="Survival of every condition">'
+    return ('<div class="scroll" tabindex="0" role="group" aria-label="Survival of every condition">'
             '<table class=forest><thead><tr><th scope="col">condition</th><th scope="col"><span class=scale>' + scale
             + f'</span></th><th scope="col" class=n>mean [95 %]</th></tr></thead><tbody>{body}</tbody></table></div>')
 
@@ -113,4 +113,5 @@ def _line(row: Row, x: Callable[[float], float]) -> str:
     dots = "".join(f'<circle class=seed cx="{x(v)}" cy="{middle}" r="2"><title>seed {seed}: {v:.1f} %</title></circle>'
                    for seed, v in sorted(row.seeds.items()))
     return (f'<svg viewBox="0 0 {LEFT_PX + WIDTH_PX + RIGHT_PX} {ROW_PX}" aria-hidden="true">{bar}{dots}'
-            f'<circle class=mean cx="{x(mean)}" cy="{middle}" r="5"/></svg>')
+            f'<circle class=mean cx="{x(mean)}" cy="{middle}" r="5"><title>mean {escape(_told(row.value))}</title>'
+            "</circle></svg>")

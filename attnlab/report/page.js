@@ -106,40 +106,122 @@
   addEventListener("hashchange", unfold);
   if (location.hash) unfold();
 
-  // values: of every line of a panel that is shown, at the point nearest to the pointer
+  // values at the pointer, or where the arrows are: of every line of a panel at the nearest point, of the nearest row of
+  // a ranked one, of the cell of a heat map
+  function among(edges, at) {
+    for (var i = 1; i < edges.length; i++) if ((edges[i - 1] - at) * (edges[i] - at) <= 0) return i - 1;
+    return -1;
+  }
+
+  function nearest(points, place, at) {
+    return points.reduce(function (a, b) { return !a || Math.abs(b[place] - at) < Math.abs(a[place] - at) ? b : a; }, null);
+  }
+
+  // {head, lines, at: [left, top, width, height] of the mark} at a place of a panel; nothing where nothing is near
+  function told(panel, u, v) {
+    var box = panel.box, lines = panel.lines.filter(function (line) { return !away[line.gid]; });
+    if (panel.rows) {
+      var rows = lines.map(function (line) { return [line.at[0][0], line.at[0][1], line.name, line.at[0][3]]; });
+      var row = nearest(rows, 1, v);
+      return row && Math.abs(row[1] - v) < 60 && { head: row[2], lines: [(panel.title || panel.x) + " " + row[3]],
+        at: [box[0], row[1], box[2] - box[0], 0], x: row[0] };
+    }
+    var said = [], best = null, cells = panel.cells;
+    lines.forEach(function (line) {
+      var near = nearest(line.at, 0, u);
+      if (!near || Math.abs(near[0] - u) > 60) return;
+      if (!best || Math.abs(near[0] - u) < Math.abs(best[0] - u)) best = near;
+      said.push([Math.abs(near[1] - v), line.name + " " + near[3]]);
+    });
+    if (best) {
+      said.sort(function (a, b) { return a[0] - b[0]; });
+      var texts = said.slice(0, 8).map(function (one) { return one[1]; });
+      if (said.length > 8) texts.push("and " + (said.length - 8) + " more");
+      return { head: panel.x + " " + best[2] + (panel.title ? " · " + panel.title : ""), lines: texts,
+        at: [best[0], box[1], 0, box[3] - box[1]], x: best[0] };
+    }
+    var i = cells ? among(cells.across, u) : -1, j = cells ? among(cells.up, v) : -1;
+    if (i < 0 || j < 0 || !cells.said[j][i]) return null;
+    var left = Math.min(cells.across[i], cells.across[i + 1]), top = Math.min(cells.up[j], cells.up[j + 1]);
+    return { head: cells.columns[i] + ", " + cells.rows[j] + (panel.title ? " · " + panel.title : ""),
+      lines: [cells.said[j][i] + cells.unit], at: [left, top, Math.abs(cells.across[i + 1] - cells.across[i]),
+        Math.abs(cells.up[j + 1] - cells.up[j])], x: left };
+  }
+
+  // every place of a panel where the arrows stop
+  function stops(panel) {
+    var found = {};
+    panel.lines.forEach(function (line) {
+      if (!away[line.gid]) line.at.forEach(function (at) { found[panel.rows ? at[1] : at[0]] = [at[0], at[1]]; });
+    });
+    var keys = Object.keys(found).sort(function (a, b) { return a - b; });
+    if (keys.length || !panel.cells) return keys.map(function (key) { return found[key]; });
+    var of = panel.cells, places = [];
+    of.said.forEach(function (row, j) {
+      row.forEach(function (text, i) {
+        if (text) places.push([(of.across[i] + of.across[i + 1]) / 2, (of.up[j] + of.up[j + 1]) / 2]);
+      });
+    });
+    return places;
+  }
+
   each(document.querySelectorAll(".plot[data-values]"), function (plot) {
-    var panels = JSON.parse(plot.dataset.values), img = plot.querySelector("img");
+    var panels = JSON.parse(plot.dataset.values), img = plot.querySelector("img"), at = [0, -1];
     var rule = make("i", plot), tip = make("div", plot);
     rule.className = "rule";
     tip.className = "tip";
+    tip.setAttribute("role", "status");
     tip.hidden = rule.hidden = true;
-    plot.onpointerleave = function () { tip.hidden = rule.hidden = true; };
+
+    function show(panel, u, v) {
+      var found = panel && told(panel, u, v);
+      tip.hidden = rule.hidden = !found;
+      tip.textContent = "";
+      if (!found) return;
+      make("b", tip, found.head);
+      found.lines.forEach(function (line) { make("div", tip, line); });
+      ["left", "top", "width", "height"].forEach(function (side, i) { rule.style[side] = found.at[i] / 10 + "%"; });
+      tip.style.left = found.x < 550 ? found.x / 10 + 1 + "%" : "auto";
+      tip.style.right = found.x < 550 ? "auto" : 101 - found.x / 10 + "%";
+      var beside = panel.rows || panel.cells, low = found.at[1] > 600;
+      tip.style.top = beside ? low ? "auto" : (found.at[1] + found.at[3] + 8) / 10 + "%" : panel.box[1] / 10 + "%";
+      tip.style.bottom = beside && low ? (1008 - found.at[1]) / 10 + "%" : "auto";
+    }
+    plot.onpointerleave = plot.onblur = function () { show(null); };
     plot.onpointermove = plot.onpointerdown = function (event) {
       var box = img.getBoundingClientRect(), u = 1000 * (event.clientX - box.left) / box.width;
-      var v = 1000 * (event.clientY - box.top) / box.height, best = null, said = [];
-      var panel = panels.find(function (p) {
+      var v = 1000 * (event.clientY - box.top) / box.height;
+      show(panels.find(function (p) {
         return u >= p.box[0] - 5 && u <= p.box[2] + 5 && v >= p.box[1] - 5 && v <= p.box[3] + 5;
+      }), u, v);
+    };
+    plot.onkeydown = function (event) {
+      var turn = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
+      if (event.key === "Escape") show(null);
+      if (!turn) return;
+      event.preventDefault();
+      at = turn[0] ? [(at[0] + turn[0] + panels.length) % panels.length, 0] : [at[0], at[1] + turn[1]];
+      var places = stops(panels[at[0]]);
+      at[1] = Math.max(0, Math.min(places.length - 1, at[1]));
+      if (places.length) show(panels[at[0]], places[at[1]][0], places[at[1]][1]);
+    };
+  });
+
+  // the ranked plot on the first screen: the seed that is nearest to the pointer
+  each(document.querySelectorAll(".forest svg"), function (svg) {
+    var tip = make("div", svg.parentNode), box = svg.viewBox.baseVal;
+    tip.className = "tip";
+    tip.hidden = true;
+    svg.onpointerleave = function () { tip.hidden = true; };
+    svg.onpointermove = svg.onpointerdown = function (event) {
+      var area = svg.getBoundingClientRect(), u = box.width * (event.clientX - area.left) / area.width;
+      var marks = Array.from(svg.querySelectorAll("circle")).map(function (mark) {
+        return [+mark.getAttribute("cx"), mark.textContent];
       });
-      (panel ? panel.lines : []).forEach(function (line) {
-        if (away[line.gid]) return;
-        var near = line.at.reduce(function (a, b) { return !a || Math.abs(b[0] - u) < Math.abs(a[0] - u) ? b : a; }, null);
-        if (!near || Math.abs(near[0] - u) > 60) return;
-        if (!best || Math.abs(near[0] - u) < Math.abs(best[0] - u)) best = near;
-        said.push([Math.abs(near[1] - v), line.name + " " + near[3]]);
-      });
-      tip.hidden = rule.hidden = !best;
-      if (!best) return;
-      said.sort(function (a, b) { return a[0] - b[0]; });
-      tip.textContent = "";
-      make("b", tip, panel.x + " " + best[2] + (panel.title ? " · " + panel.title : ""));
-      said.slice(0, 8).forEach(function (one) { make("div", tip, one[1]); });
-      if (said.length > 8) make("div", tip, "and " + (said.length - 8) + " more");
-      rule.style.left = best[0] / 10 + "%";
-      rule.style.top = panel.box[1] / 10 + "%";
-      rule.style.height = (panel.box[3] - panel.box[1]) / 10 + "%";
-      tip.style.left = best[0] < 550 ? best[0] / 10 + 1 + "%" : "auto";
-      tip.style.right = best[0] < 550 ? "auto" : 101 - best[0] / 10 + "%";
-      tip.style.top = panel.box[1] / 10 + "%";
+      var near = nearest(marks, 0, u);
+      tip.hidden = !near || Math.abs(near[0] - u) > 30;
+      tip.textContent = near ? near[1] : "";
+      tip.style.left = near ? Math.min(60, 100 * near[0] / box.width) + "%" : "0";
     };
   });
 }());

@@ -1,8 +1,10 @@
-"""An SVG as an address that a page can hold: about half the size of matplotlib's file in base64."""
+"""Pictures as small as a page needs them: an SVG as an address of about half the size of matplotlib's file in base64, a
+PNG of few colours."""
 
 from __future__ import annotations
 
 import base64
+import io
 import re
 from urllib.parse import quote
 
@@ -18,6 +20,15 @@ def slim(svg: str) -> str:
     text = PATHS.sub(lambda path: " ".join(NUMBERS.sub(_tenths, path[0]).split()), NOTHING_SEEN.sub("", svg))
     text = PLACES.sub(lambda number: f"{float(number[0]):.2f}", text)
     return re.sub(r">\s+<", "><", text).strip()
+
+
+def palette(png: bytes) -> bytes:
+    """The same picture in at most 256 colours, none off by more than can be seen: about a third of the size."""
+    from PIL import Image
+    sink = io.BytesIO()
+    picture = Image.open(io.BytesIO(png)).convert("RGB")
+    picture.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(sink, format="PNG", optimize=True)
+    return sink.getvalue()
 
 
 def _tenths(number: re.Match[str]) -> str:

@@ -28,10 +28,10 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
     for v in verdicts:
         lead = v.lead
         rows.append(
-            f'<tr id="claim-{escape(v.id)}"><td><b>{escape(v.id)}</b> {escape(v.claim.title)}<br>'
-            f'<span class=small>{escape(v.claim.where)}: {escape(v.claim.says)}</span></td><td>'
+            f'<tr id="claim-{escape(v.id)}"><td><b>{escape(v.id)}</b> {escape(v.claim.title)}'
+            f'<span class="small line">{escape(v.claim.where)}: {escape(v.claim.says)}</span></td><td>'
             f"{chip(v.verdict, v.word)}</td>"
-            f"<td>{escape(v.reason)}.{_ticks(v)}{_seeds(v)}{''.join(map(_small, _asides(v)))}</td>"
+            f"<td>{_why(v)}{_seeds(v)}{''.join(map(_small, _asides(v)))}</td>"
             f'<td class=n data-name="effect d">{_n(lead.effect, ".2f")}</td><td class=n data-name="p">{_n(v.p)}</td>'
             f'<td class=n data-name="Holm">{_n(v.p_holm)}</td>'
             f'<td class=n data-name="seeds">{lead.seeds or "-"}</td></tr>')
@@ -48,17 +48,23 @@ def section(verdicts: Sequence[Verdict], stratum: str = "") -> Section:
     return Section("claims", "Claims one by one", html)
 
 
-def _ticks(v: Verdict) -> str:
-    """Every comparison that counts with its tick, cross or question mark, where a claim has several."""
+def _why(v: Verdict) -> str:
+    """The reason of a verdict; where a claim has several comparisons, each that counts with its tick, cross or question
+    mark, and what the reason says besides."""
     counting = [p for p in v.parts if p.part.counts]
     if len(counting) < 2:
-        return ""
+        return f"{escape(v.reason)}."
     items = []
     for p in counting:
         mark, word = ("?", "cannot say") if p.verdict is Finding.UNTESTABLE else \
             ("✓", "holds") if p.verdict.holds else ("✗", "does not hold")
         items.append(f'<li><span role="img" aria-label="{word}">{mark}</span> {escape(p.reason)}</li>')
-    return f"<ul class=ticks>{''.join(items)}</ul>"
+    each = [p.reason for p in counting]
+    more = v.reason
+    for reason in sorted(filter(None, each), key=len, reverse=True):
+        more = more.replace(reason, "")
+    more = "; ".join(filter(None, map(str.strip, more.split(";"))))
+    return f"<ul class=ticks>{''.join(items)}</ul>" + (f"{escape(more[0].upper() + more[1:])}." if more else "")
 
 
 def _seeds(v: Verdict) -> str:
@@ -73,7 +79,7 @@ def _seeds(v: Verdict) -> str:
 
 
 def _small(text: str) -> str:
-    return f"<br><span class=small>{escape(text)}</span>"
+    return f'<span class="small line">{escape(text)}</span>'
 
 
 def _asides(v: Verdict) -> list[str]:

@@ -1,6 +1,7 @@
 """Nine conditions: a small panel for each or a row in rank, never nine lines in one."""
 
 import csv
+import json
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from attnlab.figures.base import FigureContext, make
 from attnlab.figures.many import MOST_LINES
 from attnlab.figures.panels import panels
 from attnlab.figures.style import drawing, png_bytes
-from attnlab.figures.values import as_csv, gid_of, plots
+from attnlab.figures.values import as_csv, as_json, gid_of, plots
 from attnlab.results import load
 from attnlab.results.conditions import Conditions
 from tests.report.small_study import write_study
@@ -48,6 +49,49 @@ def test_rewards_and_needs_are_ranked(conditions):
         places = {line.get_gid(): line.get_xdata()[0] for line in axes[-1].lines if len(line.get_xdata()) == 1}
         means = [places[gid_of(label)] for label in labels]
         assert means == sorted(means) and len(panel.lines) == len(means)
+
+
+def test_a_ranked_figure_tells_the_value_of_every_row(conditions):
+    """Read from what is drawn: name, mean and interval of each condition, at its place."""
+    figure = drawn(conditions, "maximum_need")
+    for plot, ax in zip(plots(figure), figure.axes, strict=True):
+        assert plot.rows and sorted(line.name for line in plot.lines) == sorted(NAMES)
+        for line in plot.lines:
+            (mean,), ((low, high),) = line.points[:, 0], line.ends
+            assert low <= mean <= high and line.gid == gid_of(line.name)
+            ends = next(of.get_xdata() for of in ax.lines if of.get_gid() == line.gid and len(of.get_xdata()) == 2)
+            assert (low, high) == tuple(ends)
+    told = json.loads(as_json(plots(figure)))[0]
+    assert told["rows"] and all(said.startswith(f"{x:.4g}"[:3]) and "[" in said
+                                for line in told["lines"] for _, _, x, said in line["at"])
+
+
+def test_a_heat_map_tells_its_cells(conditions):
+    plot = plots(drawn(conditions, "policies"))[0]
+    assert plot.cells.columns[2] == "percept 3" and plot.cells.rows[:3] == ["rule0, low", "rule0, LH", "rule0, HH"]
+    assert {text for row in plot.cells.said for text in row} == {
+        f"period {period}, in 2 of 2" for period in (1, 12)}
+    across, up = plot.at
+    assert across == sorted(across) and up == sorted(up) and (across[0], across[-1]) == (plot.box[0], plot.box[2])
+    rows = list(csv.DictReader(as_csv([plot]).decode().splitlines()))
+    assert len(rows) == 6 * len(plot.cells.rows) and rows[0]["x"] == "percept 1" and rows[0]["line"] == "rule0, low"
+
+
+@pytest.mark.parametrize("mesh", [True, False])
+def test_a_heat_map_of_anybodys_tells_its_numbers(mesh):
+    import matplotlib.pyplot as plt
+    with drawing():
+        figure, ax = plt.subplots()
+        values = np.array([[1.0, 2.0, np.nan], [4.0, 5.0, 6.0]])
+        if mesh:
+            ax.pcolormesh([0, 1, 2, 3], [0, 2, 4], values)
+        else:
+            ax.imshow(values, extent=(0, 3, 0, 4), origin="lower")
+        ax.set_yticks([1, 3], ["few", "many"])
+        png_bytes(figure)
+        (plot,) = plots(figure)
+    assert plot.cells.said == [["1", "2", ""], ["4", "5", "6"]] and plot.cells.rows == ["few", "many"]
+    assert plot.cells.columns == ["0.5", "1.5", "2.5"] and plot.at[1][0] > plot.at[1][-1] and not plot.lines
 
 
 def test_the_values_of_a_figure_are_those_drawn(conditions):

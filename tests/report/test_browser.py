@@ -79,6 +79,19 @@ document.getElementById('page').onload = function () {
   }
   told.at = at;
   told.tip = point();
+  var map = page.querySelector('#policies .plot'), cells = JSON.parse(map.dataset.values)[0].cells, area;
+  area = map.querySelector('img').getBoundingClientRect();
+  map.dispatchEvent(new view.PointerEvent('pointermove', {bubbles: true,
+      clientX: area.left + (cells.across[2] + 2) / 1000 * area.width,
+      clientY: area.top + (cells.up[1] + 2) / 1000 * area.height}));
+  told.cell = map.querySelector('.tip').innerText;
+  map.dispatchEvent(new view.KeyboardEvent('keydown', {key: 'ArrowRight', cancelable: true}));
+  told.first = map.querySelector('.tip').innerText;
+  var row = page.querySelector('.forest svg'), mark = row.querySelector('circle.seed');
+  area = row.getBoundingClientRect();
+  row.dispatchEvent(new view.PointerEvent('pointermove', {bubbles: true, clientY: area.top + 3,
+      clientX: area.left + mark.getAttribute('cx') / row.viewBox.baseVal.width * area.width}));
+  told.seed = [row.parentNode.querySelector('.tip').textContent, mark.textContent];
   var before = img.src, ncr = Array.from(page.querySelectorAll('#shown input'))[1];
   ncr.click();
   told.without = point();
@@ -106,6 +119,9 @@ def test_tables_and_figures_answer(built, browser, tmp_path):
     assert told["filtered"] == ["C19"]
     assert told["tip"].startswith("training episodes") and f"CR {told['at'][3]}" in told["tip"] and "NCR" in told["tip"]
     assert "[" in told["tip"]  # with the ends of its band
+    assert told["cell"].startswith("percept 3, CR, LH · AVOID") and "seeds that visited it" in told["cell"]
+    assert told["first"].startswith("percept 1, CR, low · AVOID")  # by the keys, cell after cell
+    assert told["seed"][0] == told["seed"][1] != ""
     assert "NCR" not in told["without"] and "CR" in told["without"] and told["rows"] == 1
     assert told["redrawn"] == 2 and told["back"] is True  # its line and its band
     assert "CONSOLE" not in err, [line for line in err.splitlines() if "CONSOLE" in line]
