@@ -89,8 +89,14 @@ def judge(claims: Claims, conditions: Conditions, stratum: Mapping[str, str] | N
     ``measured``: takes what was measured, for who wants to compare more."""
     roles = {name: conditions.matching(role.where, stratum or {})[0] for name, role in claims.roles.items()}
     out = {name: failed(conditions, role.where, stratum or {}) for name, role in claims.roles.items()}
+    return judge_roles(claims, roles, out, {} if measured is None else measured)
+
+
+def judge_roles(claims: Claims, roles: Mapping[str, Runs], out: Mapping[str, set[int]], measured: Cache
+                ) -> list[Verdict]:
+    """The same from the runs of every role, wherever they are from, and the seeds that failed (``out``)."""
     why = withheld(claims, roles)
-    bench = _Bench(claims, roles, out, {} if measured is None else measured)
+    bench = _Bench(claims, roles, out, measured)
     verdicts = []
     for key, claim in claims.claims.items():
         if why:

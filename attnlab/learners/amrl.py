@@ -10,6 +10,27 @@ from attnlab.registry import register
 from attnlab.settings import setting
 
 
+class Followed:
+    """The model of AMRL-Q: what follows a state and an action is taken to be the state that was seen to do so most
+    often, the first seen of equals."""
+
+    def __init__(self, states: int, actions: int):
+        self.often = [[[0] * states for _ in range(actions)] for _ in range(states)]
+        self.first = [[[0] * states for _ in range(actions)] for _ in range(states)]  # at which look first
+        self.usual = [[-1] * actions for _ in range(states)]  # the estimates, -1 where none was seen
+        self.looks = 0
+
+    def saw(self, state: int, action: int, after: int) -> None:
+        """A measurement of what followed."""
+        self.looks += 1
+        often, first, usual = self.often[state][action], self.first[state][action], self.usual[state][action]
+        often[after] += 1
+        if often[after] == 1:
+            first[after] = self.looks
+        if usual < 0 or (often[usual], first[after]) < (often[after], first[usual]):
+            self.usual[state][action] = after
+
+
 @register("learner", "amrl")
 class ActiveMeasure(Learner):
     """Active-measure reinforcement learning, AMRL-Q (Bellinger, Coles, Crowley & Tamblyn 2020, arXiv 2005.12697; Can.
@@ -32,27 +53,18 @@ class ActiveMeasure(Learner):
 
     def __init__(self, params: Params, context: LearnerContext):
         super().__init__(params, context)
-        n, periods = context.states, list(context.periods)
-        self._followed = [[[0] * n for _ in periods] for _ in range(n)]  # how often, by state, period, next state
-        self._first = [[[0] * n for _ in periods] for _ in range(n)]  # at which look first
-        self._usual = [[-1] * len(periods) for _ in range(n)]  # the estimates
-        self._looks = 0
+        periods = list(context.periods)
+        self.model = Followed(context.states, len(periods))
         self._rest = [[periods.index(p - q) if p - q in periods else -1 for q in periods] for p in periods]
 
     def estimate(self, state: int, action: int) -> int | None:
         """The state that most often followed after this period; the first seen of equals. None if none was seen."""
-        usual = self._usual[state][action]
+        usual = self.model.usual[state][action]
         return usual if usual >= 0 else None
 
     def update(self, state: int, action: int, reward: float, next_state: int, next_action: int, cycles: int) -> None:
         self._learn(state, action, reward, max(self.q[next_state]), self.params.gamma)
-        self._looks += 1
-        often, first, usual = self._followed[state][action], self._first[state][action], self._usual[state][action]
-        often[next_state] += 1
-        if often[next_state] == 1:
-            first[next_state] = self._looks
-        if usual < 0 or (often[usual], first[next_state]) < (often[next_state], first[usual]):
-            self._usual[state][action] = next_state
+        self.model.saw(state, action, next_state)
 
     def terminal(self, state: int, action: int, reward: float) -> None:
         self._learn(state, action, reward, 0.0, 0.0)
@@ -62,6 +74,6 @@ class ActiveMeasure(Learner):
         self.visits[state][action] += 1
         self.q[state][action] = q_update(self.q[state][action], earned, best, alpha, gamma)
         for before, after in enumerate(self._rest[action]):
-            there = self._usual[state][before]
+            there = self.model.usual[state][before]
             if there >= 0 and after >= 0:
                 self.q[there][after] = q_update(self.q[there][after], earned, best, alpha, gamma)

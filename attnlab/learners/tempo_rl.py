@@ -44,10 +44,13 @@ class TempoTables:
             self.step(states[k], action, reward, after)
             earned = 0.0
             for i in range(k, -1, -1):
-                earned = rewards[i] + self.gamma * earned
-                for length in self.skips:
-                    if length == k + 1 - i or (ended and k == last and length > k + 1 - i):
-                        self.stretch(states[i], action, earned, length, after)
+                earned, length = rewards[i] + self.gamma * earned, k + 1 - i
+                if length in self.skips:
+                    self.stretch(states[i], action, earned, length, after)
+                if ended and k == last:
+                    for longer in self.skips:
+                        if longer > length:
+                            self.stretch(states[i], action, earned, longer, after)
 
     def _best(self, state: int | None) -> float:
         return 0.0 if state is None else max(self.behaviour[state])

@@ -1,0 +1,66 @@
+"""``python -m attnlab.toys``: every way on the toy of its paper, and the paper's claims judged.
+
+    python -m attnlab.toys                       20 seeds, minutes; the page, the table and verdicts in outputs/toys
+    python -m attnlab.toys --seeds 6 --short 20  does it work? Seconds, verdicts mean little
+    python -m attnlab.toys --table toys.csv      plays nothing: verdicts of a table that is there
+
+Writes ``README.md``, ``toys.csv`` (a row for every way, toy, seed and quantity), ``verdicts.csv`` and ``made.json``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from attnlab.claims.judge import Verdict
+from attnlab.console import guarded
+from attnlab.errors import ConfigError
+from attnlab.loading import load_all
+from attnlab.report import verdicts as tables
+from attnlab.tables.code import code
+from attnlab.tables.files import write_bytes
+from attnlab.toys.page import page, sentence
+from attnlab.toys.table import Told, as_csv, claims, judged, play, read
+
+
+def main(argv: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python -m attnlab.toys", description="The toys of the papers on when to "
+                                     "look, played by the ways, and the papers' claims judged.")
+    parser.add_argument("--seeds", type=int, default=20, help="of every way on every toy")
+    parser.add_argument("--short", type=int, default=1, metavar="N", help="an Nth of all episodes; verdicts mean little")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes")
+    parser.add_argument("--table", type=Path, help="a toys.csv that is there; nothing is played")
+    parser.add_argument("--out", type=Path, default=Path("outputs/toys"), help="folder to write to")
+    given = parser.parse_args(argv)
+    for name in ("seeds", "short", "jobs"):
+        if getattr(given, name) < 1:
+            raise ConfigError(f"--{name}", f"must be at least 1, got {getattr(given, name)}")
+    load_all()
+    told = read(given.table) if given.table else play(range(given.seeds), given.jobs, given.short)
+    typed = f"python -m attnlab.toys --seeds {given.seeds}" + (f" --short {given.short}" if given.short > 1 else "")
+    write(told, given.out, typed)
+    return 0
+
+
+def write(told: Told, out: Path, command: str) -> dict[str, list[Verdict]]:
+    """Judge, and write all there is to a folder; prints what was found."""
+    found, files = judged(told), claims()
+    out.mkdir(parents=True, exist_ok=True)
+    write_bytes(out / "toys.csv", as_csv(told))
+    write_bytes(out / "verdicts.csv", tables.as_csv(found))
+    write_bytes(out / "README.md", page(found, files, command).encode())
+    made = {"command": command, "code": code(), "claims_sha256": {name: of.sha256 for name, of in files.items()}}
+    write_bytes(out / "made.json", (json.dumps(made, indent=1) + "\n").encode())
+    for name, verdicts in found.items():
+        tables.print_table(verdicts, files[name].title)
+        print(sentence(verdicts))
+    print(f"page     {out / 'README.md'}", file=sys.stderr)
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit(guarded(main))
