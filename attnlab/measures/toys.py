@@ -16,7 +16,8 @@ INF = float("inf")
 QUANTITIES: dict[str, tuple[str, tuple[float, float]]] = {  # unit, the least and the most it can be
     "area": ("1", (0.0, 1.0)), "decisions": ("decisions", (1.0, INF)), "measurements": ("looks", (0.0, INF)),
     "error": ("1", (0.0, INF)),
-    **{f"{name}{of}": ("UoR", (-INF, INF)) for name in ("costed_return", "free_return", "return") for of in ("", "_all")}}
+    **{name: ("UoR", (-INF, INF)) for of in ("", "_all") for name in (f"costed_return{of}", f"free_return{of}",
+                                                                       f"return{of}")}}
 
 
 class ToyRuns(Runs):

@@ -31,7 +31,7 @@ def main(argv: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m attnlab.toys", description="The toys of the papers on when to "
                                      "look, played by the ways, and the papers' claims judged.")
     parser.add_argument("--seeds", type=int, default=20, help="of every way on every toy")
-    parser.add_argument("--short", type=int, default=1, metavar="N", help="an Nth of all episodes; verdicts mean little")
+    parser.add_argument("--short", type=int, default=1, metavar="N", help="an Nth of all episodes: a trial")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes")
     parser.add_argument("--table", type=Path, help="a toys.csv that is there; nothing is played")
     parser.add_argument("--out", type=Path, default=Path("outputs/toys"), help="folder to write to")

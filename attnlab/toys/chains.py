@@ -74,12 +74,10 @@ def play_chain_clock(chain: MeasuredChain, seed: int, episodes: int, always: boo
             values = made.values(state)
             action = 0 if always else draw.randrange(len(PERIODS)) if draw.random() < EPSILON else \
                 values.index(max(values))
-            within = 0.0
-            for _ in range(PERIODS[action]):
+            within, left = 0.0, PERIODS[action]
+            while left and not ended:
                 place, reward, ended = chain.step(place, 1)
-                within += reward
-                if ended:
-                    break
+                within, left = within + reward, left - 1
             after = action * chain.states + place
             if ended:
                 made.terminal(state, action, within)

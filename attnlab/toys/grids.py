@@ -48,7 +48,8 @@ def _learn(grid: Grid, steps: list[list[Step]], tables: TempoTables, epsilon: fl
         row = tables.behaviour[state]
         action = draw.randrange(len(row)) if draw.random() < epsilon else best(row, draw)
         j = draw.randrange(len(skips)) if draw.random() < epsilon else best(tables.skip[state][action], draw)
-        path, rewards = [state], []
+        path: list[int] = [state]
+        rewards: list[float] = []
         while len(rewards) < skips[j] and not ended and taken < grid.most_steps:
             state, reward, ended = steps[state][action]
             path.append(state)

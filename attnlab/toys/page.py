@@ -11,9 +11,9 @@ from attnlab.claims.words import number
 
 HEAD = """# The ways on their papers' toys
 
-Every way to decide when to look that has a toy in its paper plays it here with the code that the robot's clock uses, and
-the paper's claims ([conf/claims/toys](../../../conf/claims/toys)) are judged by the [rules of all claims](../../claims.md).
-They were written, with their numbers, before anything was played; nothing was tuned afterwards."""
+Every way to decide when to look that has a toy in its paper plays it here with the code that the robot's clock uses,
+and the paper's claims (`conf/claims/toys`) are judged by the [rules of all claims](../../claims.md). They were written,
+with their numbers, before anything was played; nothing was tuned afterwards."""
 
 
 def page(told: dict[str, list[Verdict]], files: dict[str, Claims], command: str) -> str:

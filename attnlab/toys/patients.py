@@ -78,7 +78,7 @@ def play_patients(process: Treatment, seed: int, episodes: int, way: str) -> dic
     of a model, how much its chances are off after every delay (the sum of absolute differences of a row, its mean
     over states, treatments and delays). What a state pays is known to the planners (ours: theirs fit it)."""
     draw = Random(seed)
-    model: Model | None = {"one_step": OneStep, "each_delay": EachDelay}[way](process) if way != "model_free" else None
+    model: Model | None = OneStep(process) if way == "one_step" else EachDelay(process) if way == "each_delay" else None
     q: Table = [[[0.0] * len(process.delays) for _ in process.chances] for _ in process.pays]
     seen: list[tuple[int, int, int, float, int]] = []  # state, treatment, delay, earned, after
     returns = []

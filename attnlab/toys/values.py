@@ -40,7 +40,7 @@ def amrl(seed: int, looks: int) -> dict[str, float]:
     def reward(_: int, after: int) -> float:
         return after / (BINS - 1)
     made = drive(clock("amrl", look_cost=0.2), RING, reward, looks, seed)
-    return off([made.q[BINS + x] for x in range(BINS)], optimal(RING, reward, lambda p: 0.9, 0.2))
+    return off([made.q[BINS + x] for x in range(BINS)], optimal(RING, reward, lambda _: 0.9, 0.2))
 
 
 def tacos(seed: int, looks: int) -> dict[str, float]:
@@ -54,7 +54,7 @@ def tacos(seed: int, looks: int) -> dict[str, float]:
 def timing(seed: int, looks: int) -> dict[str, float]:
     """The plan of its own model, on the walk."""
     made = drive(clock("timing", sweeps=200), WALK, earn, looks, seed)
-    return off(made.plan, optimal(WALK, earn, lambda p: 0.9))
+    return off(made.plan, optimal(WALK, earn, lambda _: 0.9))
 
 
 def harms() -> list[list[float]]:
@@ -78,22 +78,22 @@ def bandwidth(seed: int, looks: int) -> dict[str, float]:
 def regulations(seed: int, looks: int) -> dict[str, float]:
     """No values to be compared: the mean reward of a look once it has learned, on the walk."""
     made = drive(clock("regulations"), WALK, earn, looks, seed)
-    return {"return": mean_reward(lambda state: greedy(made, state), seed)}
+    return {"return": mean_reward(lambda state: greedy(made, state), seed, looks)}
 
 
-def chance(seed: int, looks: int) -> dict[str, float]:  # noqa: ARG001  as the others
+def chance(seed: int, looks: int) -> dict[str, float]:
     """A clock that draws its periods, on the walk."""
     draw = Random(seed)
-    return {"return": mean_reward(lambda _: draw.randrange(len(PERIODS)), seed)}
+    return {"return": mean_reward(lambda _: draw.randrange(len(PERIODS)), seed, looks)}
 
 
-def best(seed: int, looks: int) -> dict[str, float]:  # noqa: ARG001  as the others
+def best(seed: int, looks: int) -> dict[str, float]:
     """Value iteration's clock, on the walk."""
-    rows = optimal(WALK, earn, lambda p: 0.9)
-    return {"return": mean_reward(lambda state: rows[state % BINS].index(max(rows[state % BINS])), seed)}
+    rows = optimal(WALK, earn, lambda _: 0.9)
+    return {"return": mean_reward(lambda state: rows[state % BINS].index(max(rows[state % BINS])), seed, looks)}
 
 
-def mean_reward(choose: Callable[[int], int], seed: int, looks: int = 5000) -> float:
+def mean_reward(choose: Callable[[int], int], seed: int, looks: int) -> float:
     """The mean reward of a look of a clock that learns nothing (more), on the walk."""
     draw, percept, state, earned = Random(1000 + seed), 0, 0, 0.0
     reached = powers(WALK)

@@ -38,8 +38,8 @@ FLOORS = (
     ("launch",),
     ("clusters",),
     ("cli", "testing", "clock"),
-    ("certify", "appraise", "arena", "calibrate", "replay", "search", "gym", "fig1", "plot", "parts", "new", "api",
-     "__main__", "enjoy", "index", "rerun", "retry", "tune", "watch", "work"),
+    ("certify", "appraise", "arena", "calibrate", "replay", "search", "toys", "gym", "fig1", "plot", "parts", "new",
+     "api", "__main__", "enjoy", "index", "rerun", "retry", "tune", "watch", "work"),
     ("batch", "export", "render"),
 )
 TOP = {  # modules that are no commands

@@ -12,20 +12,8 @@ from attnlab.learners.tempo_rl import TempoTables
 from attnlab.reading import Reading
 from attnlab.robot.plan import RunPlan
 from attnlab.testing import config, make, run
-from tests.learners.processes import (
-    BRIDGE,
-    CLIFF,
-    PERIODS,
-    RING,
-    WALK,
-    Grid,
-    clock,
-    drive,
-    earn,
-    learn_grid,
-    optimal,
-    powers,
-)
+from attnlab.testing.driving import clock, drive
+from attnlab.testing.processes import PERIODS, RING, WALK, earn, optimal, powers
 
 WAYS = ("q_learning", "double_q", "sarsa", "expected_sarsa", "q_lambda", "tempo_rl", "amrl", "tacos", "timing",
         "self_triggered", "bandwidth", "regulations")
@@ -288,30 +276,3 @@ def test_no_two_ways_give_equal_tables():
         assert tables[one]["q"] != tables[two]["q"], (one, two)
         if "timing" not in (one, two):
             assert tables[one]["visits"] != tables[two]["visits"] or one in two, (one, two)
-
-
-@pytest.mark.parametrize("grid", [CLIFF, BRIDGE], ids=["cliff", "bridge"])
-def test_the_grids_of_tempo_rl(grid):
-    """Their finding: with skips the goal is learned sooner, and reached with fewer decisions. Three seeds."""
-    skipping = [learn_grid(Grid(grid), TempoTables(60, 4, range(1, 8), 0.5, 0.99), 200, seed) for seed in range(3)]
-    plain = [learn_grid(Grid(grid), TempoTables(60, 4, (1,), 0.5, 0.99), 200, seed, (1,)) for seed in range(3)]
-    for (area, _, decisions), (flat, *_) in zip(skipping, plain, strict=True):
-        assert area > flat and decisions <= 7
-    assert all(steps >= 13 for _, steps, _ in skipping)  # nobody flies
-
-
-def test_the_chain_of_amrl():
-    """A ring of six, a reward of 1 for looking at the last, 0.1 a look. Their finding: the costed return exceeds that
-    of measuring always, with fewer measurements, by a model learned meanwhile."""
-    made = clock("amrl", look_cost=0.1)
-    drive(made, RING, lambda p, x: float(x == 5), 3000)
-    state, earned, looks, cycles = 0, 0.0, 0, 0
-    while cycles < 1200:
-        action = made.values(state).index(max(made.values(state)))
-        cycles += PERIODS[action]
-        looks += 1
-        earned += float((cycles % 6) == 5) - 0.1
-        state = action * 6 + cycles % 6
-    always = 1200 / 6 - 0.1 * 1200
-    assert earned > always and looks < 600
-    assert all(made.estimate(6 + x, 0) % 6 == (x + 1) % 6 for x in range(6))

@@ -5,12 +5,11 @@ from random import Random
 import pytest
 
 from attnlab.testing import make
+from attnlab.testing.processes import PERIODS
+from attnlab.testing.processes import TRAP_NEXT as NEXT
+from attnlab.testing.processes import TRAP_REWARD as REWARD
 
 GAMMA, STATES, ACTIONS, END = 0.9, 4, 4, 3
-PERIODS = [1, 4, 8, 12]
-# A ring of three states and a trap: a = 0 stays, 1 goes on, 2 goes back, 3 falls into the trap from state 2.
-NEXT = [[0, 1, 2, 0], [1, 2, 0, 1], [2, 0, 1, END]]
-REWARD = [[0.1, 0.0, 0.3, 0.2], [0.0, 0.9, 0.2, 0.1], [0.3, 0.1, 0.0, -5.0]]
 
 
 def optimal(smdp: bool = False, epsilon: float = 0.0) -> list[list[float]]:
