@@ -28,10 +28,7 @@ class Looks:
 
     def together(self) -> int:
         """Of all."""
-        looks = 0
-        for taken in self.taken:
-            looks += taken
-        return looks
+        return sum(self.taken)
 
 
 @register("learner", "capped")
@@ -42,8 +39,7 @@ class Capped(Learner):
     one is free, and looks that others have been granted but not yet taken are not known); otherwise the shortest longer
     one that keeps to it, or the longest there is. The other learns from what was granted.
 
-    A cap of n behaviours that is below n looks in the longest period cannot be kept; it then looks as rarely as it can.
-    Draws what the other draws.
+    n behaviours cannot keep fewer than n looks in the longest period: they look rarely. Draws what the other draws.
     """
 
     @dataclass
@@ -60,8 +56,7 @@ class Capped(Learner):
         self.needs_between = self.inner.needs_between
         self._a_cycle = params.looks_per_s * context.reading.dt_s
         self._rising = sorted(range(self.actions), key=lambda action: context.periods[action])
-        self._begun = False
-        self._now = 0
+        self._begun, self._now = False, 0
         self._looks: Looks = context.shared.setdefault("looks", Looks())
         self._place = self._looks.join()
 
@@ -95,8 +90,7 @@ class Capped(Learner):
             self._now += periods[state // self.context.bins % len(periods)]
             self._looks.taken[self._place] += 1
         self._begun = True
-        wanted = self.inner.decide(state, exploration, draw)
-        looks = 1 + self._looks.together()
+        wanted, looks = self.inner.decide(state, exploration, draw), 1 + self._looks.together()
         for action in self._rising:
             period = periods[action]
             if period >= periods[wanted] and looks <= self._a_cycle * (self._now + period) + 1e-9:
@@ -121,6 +115,6 @@ def _made(of: Any, context: LearnerContext) -> Learner:
         raise registry.unknown("learner", name, "learner.of")
     if spec.cls is Capped or spec.cls.prepare.__func__ is not Learner.prepare.__func__:  # type: ignore[attr-defined]
         raise ConfigError("learner.of", f"{name} cannot be capped")
-    own = of if isinstance(of, Mapping) else {}
-    made: Learner = registry.make("learner", {**spec.nodes()[name], **own}, context, "learner.of")
+    node = {**spec.nodes()[name], **(of if isinstance(of, Mapping) else {})}
+    made: Learner = registry.make("learner", node, context, "learner.of")
     return made

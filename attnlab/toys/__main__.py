@@ -15,6 +15,7 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from attnlab.claims.judge import Verdict
 from attnlab.console import guarded
@@ -40,20 +41,27 @@ def main(argv: Sequence[str]) -> int:
         if getattr(given, name) < 1:
             raise ConfigError(f"--{name}", f"must be at least 1, got {getattr(given, name)}")
     load_all()
-    told = read(given.table) if given.table else play(range(given.seeds), given.jobs, given.short)
     typed = f"python -m attnlab.toys --seeds {given.seeds}" + (f" --short {given.short}" if given.short > 1 else "")
-    write(told, given.out, typed)
+    made: dict[str, Any] = {"command": typed, "code": code()}
+    if given.table:
+        beside = given.table.with_name("made.json")
+        told, made = read(given.table), json.loads(beside.read_text()) if beside.is_file() else \
+            {"command": f"python -m attnlab.toys --table {given.table.name}", "code": None}
+    else:
+        told = play(range(given.seeds), given.jobs, given.short)
+    write(told, given.out, made)
     return 0
 
 
-def write(told: Told, out: Path, command: str) -> dict[str, list[Verdict]]:
-    """Judge, and write all there is to a folder; prints what was found."""
+def write(told: Told, out: Path, made: dict[str, Any]) -> dict[str, list[Verdict]]:
+    """Judge, and write all there is to a folder; prints what was found. ``made``: the command that played, and its
+    code."""
     found, files = judged(told), claims()
     out.mkdir(parents=True, exist_ok=True)
     write_bytes(out / "toys.csv", as_csv(told))
     write_bytes(out / "verdicts.csv", tables.as_csv(found))
-    write_bytes(out / "README.md", page(found, files, command).encode())
-    made = {"command": command, "code": code(), "claims_sha256": {name: of.sha256 for name, of in files.items()}}
+    write_bytes(out / "README.md", page(found, files, str(made["command"])).encode())
+    made = {"claims_sha256": {name: of.sha256 for name, of in files.items()}, **made}  # those of the play, if known
     write_bytes(out / "made.json", (json.dumps(made, indent=1) + "\n").encode())
     for name, verdicts in found.items():
         tables.print_table(verdicts, files[name].title)

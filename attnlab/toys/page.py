@@ -12,15 +12,35 @@ from attnlab.claims.words import number
 HEAD = """# The ways on their papers' toys
 
 Every way to decide when to look that has a toy in its paper plays it here with the code that the robot's clock uses,
-and the paper's claims (`conf/claims/toys`) are judged by the [rules of all claims](../../claims.md). They were written,
+and the paper's claims (`conf/claims/toys`) are judged by the rules of all claims (`docs/claims.md`). They were written,
 with their numbers, before anything was played; nothing was tuned afterwards."""
+NOTES = {  # what is ours
+    "temporl":
+    "Played as in the authors' code, with `TempoTables` of `learner=tempo_rl`. Ours: a skip that would go on "
+    "beyond the end is worth what it earned until there; in their code the last reward is earned again in each "
+    "step that is left. The numbers are those of the authors' published runs.",
+    "amrl":
+    "Played as in the authors' code, with the model and the update of `learner=amrl`. The settings of the "
+    "standard chain's runs are not public; those of the even-odd chain are taken for both. An episode's end is "
+    "seen without a measurement. Ours: the margins.",
+    "timing":
+    "The process and its settings are those of the authors' code; one model of a step is the chain of "
+    "`learner=timing`. Ours: that chain is estimated by expectation maximisation (theirs by gradients), what a "
+    "state pays is known to both planners (theirs fit it), and a return is the mean of the last episodes (theirs "
+    "of the last one). In their own table the one model is no higher than a model for each delay.",
+    "values":
+    "TaCoS (a pendulum and robots, by deep learners), self-triggering, Whittle's index and the regulations have "
+    "no tabular toy that could be had; they, and the clocks made here of the others, are held against exact "
+    "solutions on chains of six percepts. Emotional clocks and monitors learn nothing: their functions are held "
+    "by hand in the tests."}
 
 
 def page(told: dict[str, list[Verdict]], files: dict[str, Claims], command: str) -> str:
     """Markdown: a sentence and a table for every claims file."""
     parts = [HEAD, f"    {command}"]
     for name, verdicts in told.items():
-        parts += [f"## {files[name].title}", f"{files[name].source}. {sentence(verdicts)}", rows(verdicts, files[name])]
+        parts += [f"## {files[name].title}", f"{files[name].source}. {sentence(verdicts)} {NOTES[name]}",
+                  rows(verdicts, files[name])]
     return "\n\n".join(parts) + "\n"
 
 

@@ -3,6 +3,7 @@
     python docs/results/make.py                         all studies, then the page: the numbers of README.md beside this
     python docs/results/make.py cr_vs_ncr controls      some of them
     python docs/results/make.py search                  the search for a reading in which the paper is true, an hour
+    python docs/results/make.py toys                    the ways on their papers' toys, minutes
     python docs/results/make.py --keep                  go on where it was interrupted
     python docs/results/make.py --page                  no runs: the page from the tables that are here
     python docs/results/make.py --short --outputs DIR --to DIR   does it work? Minutes, numbers mean nothing
@@ -27,6 +28,7 @@ sys.path.insert(0, str(HERE))
 import contrasts  # noqa: E402  a folder of scripts, no package
 import own_tables  # noqa: E402
 import page  # noqa: E402
+import toys  # noqa: E402
 import truth  # noqa: E402
 import universe  # noqa: E402
 from studies import BY_NAME, SHORT, STUDIES, Study  # noqa: E402
@@ -40,14 +42,14 @@ def main() -> int:
     """Entry point; the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="STUDY", help=f"of {', '.join(BY_NAME)} (all), "
-                        "audit, search")
+                        "audit, search, toys")
     parser.add_argument("--outputs", type=Path, default=Path("outputs"), help="where runs are kept (outputs)")
     parser.add_argument("--to", type=Path, default=HERE, help="where tables, figures and page go (beside this script)")
     parser.add_argument("--keep", action="store_true", help="keep what is complete already in the outputs")
     parser.add_argument("--short", action="store_true", help="two seeds of a few short episodes; give --to, too")
     parser.add_argument("--page", action="store_true", help="make no run, write the page alone")
     a = parser.parse_args()
-    unknown = sorted(set(a.names) - {*BY_NAME, truth.SEARCH, truth.AUDIT})
+    unknown = sorted(set(a.names) - {*BY_NAME, truth.SEARCH, truth.AUDIT, toys.TOYS})
     if unknown or (a.short and a.to == HERE):
         parser.error(f"there is no study {', '.join(unknown)}" if unknown else "--short needs --to, not these results")
     for study in () if a.page else STUDIES:
@@ -60,6 +62,10 @@ def main() -> int:
     if not a.page and not truth.make(a.names, a.outputs, a.to):
         print("the search was stopped: nothing of it was copied; the same command goes on", file=sys.stderr)
         return 1
+    if not a.page and toys.TOYS in a.names:
+        toys.make(a.to, a.short)
+    elif a.page:
+        toys.write_page(a.to)
     write_pages(a.to)
     return 0
 

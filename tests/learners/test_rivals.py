@@ -1,14 +1,20 @@
-"""The other ways to decide when to look, by hand and against value iteration; the toys of their own papers."""
+"""The other ways to decide when to look, by hand and against value iteration. Their papers' toys: tests/toys."""
 
+import inspect
+import re
 from itertools import combinations
+from pathlib import Path
 from random import Random
 from types import SimpleNamespace
 
 import pytest
 
+import attnlab.learners
+from attnlab import registry
 from attnlab.errors import ConfigError
 from attnlab.learners.chain import Chain
 from attnlab.learners.tempo_rl import TempoTables
+from attnlab.loading import load_all
 from attnlab.reading import Reading
 from attnlab.robot.plan import RunPlan
 from attnlab.testing import config, make, run
@@ -148,6 +154,33 @@ def test_observing_all_learns_faster():
     assert known("all") > 1.5 * known("endpoints")
 
 
+def test_timing_by_hand():
+    """gamma 0.5, c 1. From the first percept a cycle leads to the second (0.75, mean reward (2 + 4) / 2) or to death
+    (0.25, -8): 0.75 (3 - 1) - 0.25 * 8 = -0.5. The second plan knows that the second percept is worth 4: + 0.75 * 0.5 *
+    4."""
+    made = clock("timing", gamma=0.5, look_cost=1.0, sweeps=1)
+    made.update(0, 0, 2.0, 1, -1, 1)
+    made.update(0, 0, 4.0, 1, -1, 1)
+    made.terminal(0, 0, -8.0)
+    made.chain.powers[1] = [[0.0, 0.75, 0.0, 0.0, 0.0, 0.0, 0.25], *([[0.0] * 6 + [1.0]] * 6)]
+    made.plan = [[0.0] * 4 for _ in range(6)]
+    made._replan()
+    assert made.plan[0][0] == pytest.approx(-0.5) and made.visits[0] == [3, 0, 0, 0]
+    made.plan = [[0.0] * 4, [4.0] * 4, *([0.0] * 4 for _ in range(4))]
+    made._replan()
+    assert made.plan[0][0] == pytest.approx(1.0) and made.values(6 * 3) == made.plan[0]
+
+
+def test_self_triggered_by_hand():
+    """Danger 0, 0.1, 0.1, 0.2, 0.2 ... cycles after a look at the last percept, cost 0.5: 0.4 within four cycles, 1.2
+    within eight. Values 1/12, 4/12, then 0.5 less what is expected."""
+    made = clock("self_triggered", look_cost=0.5)
+    made.trace[5] = [0.0, 0.1, 0.1, 0.2, *[0.2] * 9]
+    made.replan()
+    assert made.plan[5] == pytest.approx([1 / 12, 4 / 12, 0.5 - 1.2, 0.5 - 2.0])
+    assert made.plan[0] == pytest.approx([1.0, -4 / 12, -8 / 12, -1.0])  # dangerous: looked at in every cycle
+
+
 def test_timing_plans_on_a_walk_with_noise():
     made = drive(clock("timing", sweeps=200), WALK, earn, 20_000)
     assert made.plan == [pytest.approx(row, abs=0.1) for row in optimal(WALK, earn, lambda p: 0.9)]
@@ -276,3 +309,15 @@ def test_no_two_ways_give_equal_tables():
         assert tables[one]["q"] != tables[two]["q"], (one, two)
         if "timing" not in (one, two):
             assert tables[one]["visits"] != tables[two]["visits"] or one in two, (one, two)
+
+
+def test_a_learner_is_a_short_file_that_names_its_source():
+    load_all()
+    folder = Path(attnlab.learners.__file__).parent
+    assert not {file.name: n for file in folder.glob("*.py") if (n := len(file.read_text().splitlines())) > 120}
+    for name in (*WAYS, "emotional", "monitor"):
+        said = inspect.getdoc(registry.find("learner", name).cls)
+        assert re.search(r"\b(19|20)\d\d\b", said), name
+    for name in ("tempo_rl", "amrl", "timing", "tacos", "self_triggered", "bandwidth", "regulations", "emotional"):
+        said = inspect.getdoc(registry.find("learner", name).cls)
+        assert re.search(r"\b[Oo]urs\b", said), f"{name} does not say what is ours"

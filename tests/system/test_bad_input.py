@@ -49,6 +49,7 @@ CASES = [
     (["world=random", "world.obstacles=60"], "world=random", "no solvable layout"),
     (["learner=fixed", "learner.period=3"], "learner.period", "not one of the periods"),
     (["learner.alpah=0.5"], "learner.alpah", "Did you mean 'alpha'"),
+    (["learner=tempo_rl", "learner.observe=all"], "learner", "Only a log can give them"),
     (["-m", "learner.alpha=0.1,2"], "learner.alpha", "at most 1"),
     (["-m", "curiosity=litman,litmann"], "curiosity=litmann", "Did you mean 'litman'"),
     (["validation.simulator=plana"], "validation.simulator=plana", "Did you mean 'planar'"),
