@@ -78,19 +78,19 @@ def bandwidth(seed: int, looks: int) -> dict[str, float]:
 def regulations(seed: int, looks: int) -> dict[str, float]:
     """No values to be compared: the mean reward of a look once it has learned, on the walk."""
     made = drive(clock("regulations"), WALK, earn, looks, seed)
-    return {"return": mean_reward(lambda state: greedy(made, state), seed, looks)}
+    return {"return": mean_reward(lambda state: greedy(made, state), seed, looks // 4)}
 
 
 def chance(seed: int, looks: int) -> dict[str, float]:
     """A clock that draws its periods, on the walk."""
     draw = Random(seed)
-    return {"return": mean_reward(lambda _: draw.randrange(len(PERIODS)), seed, looks)}
+    return {"return": mean_reward(lambda _: draw.randrange(len(PERIODS)), seed, looks // 4)}
 
 
 def best(seed: int, looks: int) -> dict[str, float]:
     """Value iteration's clock, on the walk."""
     rows = optimal(WALK, earn, lambda _: 0.9)
-    return {"return": mean_reward(lambda state: rows[state % BINS].index(max(rows[state % BINS])), seed, looks)}
+    return {"return": mean_reward(lambda state: rows[state % BINS].index(max(rows[state % BINS])), seed, looks // 4)}
 
 
 def mean_reward(choose: Callable[[int], int], seed: int, looks: int) -> float:

@@ -4,6 +4,8 @@ import importlib
 import json
 from pathlib import Path
 
+import pytest
+
 from attnlab.report import verdicts as tables
 from attnlab.toys.page import page
 from attnlab.toys.table import as_csv, claims, judged, read, tasks
@@ -32,3 +34,20 @@ def test_make_plays_toys_when_it_is_asked_to(monkeypatch, tmp_path):
     assert typed == [["-m", "attnlab.toys", "--out", str(tmp_path / "toys")]]
     toys.write_page(RESULTS)
     assert typed[1][:3] == ["-m", "attnlab.toys", "--table"]
+
+
+def replayed(wanted):
+    """What today's code makes of seed 0, of the tasks that are wanted, and what the table has."""
+    told = read(FOLDER / "toys.csv")
+    for task in filter(wanted, tasks()):
+        today = {name: f"{value:.9g}" for name, value in task.play(0, task.length).items()}
+        assert today == {name: f"{value:.9g}" for name, value in told[task.toy, task.way][0].items()}, task[:2]
+
+
+def test_today_s_code_gives_the_table():
+    replayed(lambda task: task.toy in ("chain", "even_odd", "chain for clocks"))
+
+
+@pytest.mark.long
+def test_today_s_code_gives_the_whole_table():
+    replayed(lambda task: True)
