@@ -58,8 +58,9 @@ class TempoTables:
 
 @register("learner", "tempo_rl")
 class TempoRL(Learner):
-    """TempoRL (:class:`TempoTables`) with periods for skips. A behaviour has one thing to do, its motor schema, so that
-    Q(s) is the value of looking in every cycle from here on, and Q_J(s,p) that of doing so after a period p.
+    """TempoRL (Biedenkapp et al. 2021, as in :class:`TempoTables`) with periods for skips. A behaviour has one thing to
+    do, its motor schema, so that Q(s) is the value of looking in every cycle from here on, and Q_J(s,p) that of doing
+    so after a period p.
 
     ``observe=endpoints``: only what was looked at is known; the period's one reward R, which comes at its end, is taken
     for the rate of reward throughout it (ours: Q_J(s,p) <- sum_{k<p} gamma^k R + gamma^p Q(s'), and Q(s) learns from
