@@ -11,7 +11,7 @@ from attnlab.errors import ConfigError, nearest
 from attnlab.needs.base import Body, Need
 from attnlab.reading import Reading
 from attnlab.simulators.base import Blob, Simulator, Surroundings
-from attnlab.simulators.robot import FRONT, SONARS, centre_distances
+from attnlab.simulators.robot import FRONT, SONARS
 
 Command = tuple[float, float]  # (v m/s, w rad/s, left positive)
 
@@ -46,13 +46,13 @@ class RobotSenses:
 
     def front_distances(self) -> list[float]:
         if self._front_at != self.cycle:
-            self._front = centre_distances(self.simulator.sonar(len(FRONT)))
+            self._front = self.simulator.echoes(len(FRONT))
             self._front_at = self.cycle
         return self._front
 
     def ring(self) -> list[float]:
         if self._ring_at != self.cycle:
-            self._ring = centre_distances(self.simulator.sonar())
+            self._ring = self.simulator.echoes()
             self._ring_at = self.cycle
         return self._ring
 

@@ -78,7 +78,7 @@ class Play:
         """The next episode."""
         self.episode += 1
         self.exploration.start(self.episode)
-        self.agent.start(*self.plan.start_pose("train", self.episode))
+        self.agent.start(*self.plan.begin(self.agent, "train", self.episode))
         self.death, self.over = None, False
         self.penalties = dict.fromkeys(self.attentions, 0.0)
 

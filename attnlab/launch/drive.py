@@ -16,6 +16,7 @@ from attnlab.loading import plugin_hashes, plugin_versions
 from attnlab.registry import make
 from attnlab.results.old import recovered
 from attnlab.robot.keeping import CHECKPOINT
+from attnlab.robot.recorded import told_of
 from attnlab.tables.code import code
 from attnlab.tables.ranges import compact, seeds
 from attnlab.tables.study import FILE, Condition, grow
@@ -91,6 +92,8 @@ def _run(todo: Sequence[Job], folder: Path) -> list[tuple[Job, str]]:
           f"{cluster.at_once(todo)} at a time", flush=True)
     if line := robots.at_start(todo):
         print(line, flush=True)
+    for line in dict.fromkeys(line for job in todo for line in told_of(job.plan)):
+        print(f"attnlab: {line}", file=sys.stderr, flush=True)
     with Display(len(todo), episodes, getattr(cluster.params, "stop_after", 0)) as display:
         cluster.run(todo, display)
     display.print_failed(folder)

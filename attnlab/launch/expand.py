@@ -14,6 +14,7 @@ from attnlab.launch.jobs import Job, check_different, condition_of, make_job
 from attnlab.launch.variants import Variants, as_override
 from attnlab.robot.agents import pinned
 from attnlab.robot.plan import RunPlan
+from attnlab.robot.recorded import settled
 
 
 class Expansion:
@@ -74,6 +75,7 @@ class Expansion:
 def _of_condition(config: dict[str, Any], overrides: list[str], values: dict[str, Any], named: list[str],
                   seeds: Sequence[int] | None) -> Iterator[Job]:
     """The jobs of a condition, one a seed; its config is checked once, its world for every seed."""
+    config = settled(config)
     condition = condition_of(config, values, overrides)
     plan = None
     for number in [config["seed"]] if seeds is None else seeds:

@@ -12,7 +12,7 @@ from typing import IO, Any
 from attnlab.errors import ConfigError
 from attnlab.logs.base import Beams, Ledger, LogSettings, Pose, Raw
 from attnlab.logs.ros import Cursor, laser_scan, odometry, one_range, stamp
-from attnlab.simulators.robot import SONARS_MM_DEG
+from attnlab.pioneer import SONARS_MM_DEG
 
 KINDS = {"sensor_msgs/LaserScan": "scan", "foxglove.LaserScan": "scan", "sensor_msgs/Range": "range",
          "nav_msgs/Odometry": "pose"}

@@ -9,7 +9,7 @@ from math import atan2, hypot, inf, isfinite, nan, pi
 from typing import IO
 
 from attnlab.logs.base import Beams, Ledger, LogSettings, Pose, Raw
-from attnlab.simulators.robot import arc
+from attnlab.pioneer import arc
 
 LARGEST = 1 << 20  # bytes: no object that is read has more
 LONGEST_NAME = 64

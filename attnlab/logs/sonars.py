@@ -7,7 +7,7 @@ from functools import lru_cache
 from math import isnan, pi, radians
 
 from attnlab.logs.base import Beams, Scan
-from attnlab.simulators.robot import FRONT, SONARS
+from attnlab.pioneer import FRONT, SONARS
 
 HALF_CONE_RAD = radians(7.5)  # a sonar hears the nearest of the beams this near to its axis
 FRONT_RAD = pi / 2 + 1e-6
@@ -23,6 +23,16 @@ def cones(bearings_rad: tuple[float, ...]) -> tuple[tuple[int, ...], ...]:
         nearest = min(range(len(off)), key=off.__getitem__)
         found.append(within or ((nearest,) if off[nearest] <= 2 * HALF_CONE_RAD + 1e-9 else ()))
     return tuple(found)
+
+
+@lru_cache(maxsize=64)
+def sectors(bearings_rad: tuple[float, ...]) -> tuple[tuple[int, ...], ...]:
+    """The beams that are nearer to a sonar's axis than to any other's: each beam is heard by one."""
+    found: list[list[int]] = [[] for _ in SONARS]
+    for i, bearing in enumerate(bearings_rad):
+        off = [abs((bearing - axis + pi) % (2 * pi) - pi) for *_, axis in SONARS]
+        found[min(range(len(off)), key=off.__getitem__)].append(i)
+    return tuple(map(tuple, found))
 
 
 def least(ranges: Sequence[float], chosen: Sequence[int]) -> float | None:

@@ -54,7 +54,7 @@ def live_again(plan: RunPlan, folder: Path, phase: str, episode: int) -> Lived:
                     exploration.start(i)
                 wanted = (now, i) == (phase, episode)
                 before = state_of(agent) if wanted else {}
-                outcome = run_episode(agent, exploration, plan.start_pose(now, i), learning)
+                outcome = run_episode(agent, exploration, plan.begin(agent, now, i), learning)
                 if wanted:
                     recorder.episode(agent, now, i, *outcome, True)
                     return Lived(pd.DataFrame(recorder.tables["cycles"]), outcome[0] or "none", before)

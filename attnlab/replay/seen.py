@@ -27,7 +27,8 @@ class Sensed:
     wrong: int = 0
 
 
-def sense_again(plan: RunPlan, cycles: pd.DataFrame, start: tuple[float, float, float], phase: str) -> Sensed:
+def sense_again(plan: RunPlan, cycles: pd.DataFrame, start: tuple[float, float, float], phase: str,
+                episode: int) -> Sensed:
     """Everything that was looked at in an episode. ``start``: its first pose (m, m, rad).
 
     A robot with fresh parts is put where the recorded one was whenever a clock fired, with the needs and the energy it
@@ -36,6 +37,7 @@ def sense_again(plan: RunPlan, cycles: pd.DataFrame, start: tuple[float, float, 
     """
     with plan.simulator(validation=phase == "validation") as simulator:
         agent = plan.agent(simulator)
+        simulator.begin(phase, episode)
         agent.start(*start)
         found = Sensed(looks={a.behaviour.name: [] for a in agent.attentions})
         names = [need.name for need in agent.body.needs]

@@ -88,8 +88,11 @@ def track_of(run: Recorded, phase: str, episode: int, cycles: pd.DataFrame | Non
         notes.append(f"{run.folder.name}: this version of attnlab or of a plugin no longer lives this episode as it "
                      "was recorded, so there is no what-if.")
         lived = None
+    if shown["x_m"].isna().any():
+        raise ConfigError(str(run.folder), "its log says nowhere where the robot was, so there is nothing to draw",
+                          "python -m attnlab.report STUDY shows the rest")
     plan, start = run.plan, run.plan.start_pose(phase, episode)
-    sensed = sense_again(plan, shown, start, phase)
+    sensed = sense_again(plan, shown, start, phase, episode)
     if sensed.wrong:
         looks = sum(map(len, sensed.looks.values()))
         notes.append(f"{run.folder.name}: {sensed.wrong} of {looks} percepts are not those that were recorded; sonar "

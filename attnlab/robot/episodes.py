@@ -55,7 +55,7 @@ def play_run(plan: RunPlan, run: str = "run", swept: Mapping[str, Any] | None = 
             for episode in range(first, episodes):
                 if learning:
                     exploration.start(episode)
-                outcome = play_episode(agent, exploration, plan.start_pose(phase, episode), learning)
+                outcome = play_episode(agent, exploration, plan.begin(agent, phase, episode), learning)
                 full = (s.record == "all" or (s.record == "validation" and phase == "validation")
                         or (s.record == "last" and index == last and episode == episodes - 1))
                 recorder.episode(agent, phase, episode, *outcome, full, quick)

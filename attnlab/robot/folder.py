@@ -20,6 +20,7 @@ from attnlab.robot.guards import verdict
 from attnlab.robot.keeping import Keeping
 from attnlab.robot.observers import Observers
 from attnlab.robot.plan import RunPlan
+from attnlab.robot.recorded import told_of
 from attnlab.tables.claim import Claim
 from attnlab.tables.code import versions
 from attnlab.tables.files import mark_of, sweep_temporary, write_bytes, write_json, write_parquet
@@ -64,6 +65,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
     try:
         with _here():
             plan = RunPlan(config)
+            if skipped := told_of(plan):
+                about["skipped"] = skipped
             keeping = Keeping(plan, folder, info["key"], lambda: claim is None or claim.held())
             observers = Observers(plan.callbacks(info["run"], folder))
             observers.start(config)

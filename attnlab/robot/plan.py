@@ -22,6 +22,7 @@ from attnlab.reading import Reading
 from attnlab.robot.agents import saved
 from attnlab.robot.contexts import Making
 from attnlab.robot.guards import blame
+from attnlab.robot.recorded import check_recorded, is_recorded, settled
 from attnlab.settings import build
 from attnlab.simulators.base import Simulator
 from attnlab.streams import stream
@@ -36,7 +37,7 @@ class RunPlan:
     """
 
     def __init__(self, config: Mapping[str, Any]):
-        self.config = config
+        self.config = config = settled(config)
         self.settings: RunSettings = build(RunSettings, config, "")
         s = self.settings
         self.reading: Reading = reading_of(s)
@@ -50,6 +51,7 @@ class RunPlan:
             for name, node in getattr(s, group).items():
                 registry.build_params(group, node, f"{group}.{name}")
         self.simulator_spec = registry.build_params("simulator", s.simulator, "simulator")
+        self.recorded = is_recorded(self.simulator_spec[0])
         self.validation_spec = self._validation_spec()
         self.needs: dict[str, str] = {}  # unit by need
         self.found: dict[str, Any] = {}  # settings of the learner found offline, see Learner.prepare
@@ -84,6 +86,10 @@ class RunPlan:
         chosen = self.settings.validation
         if chosen.simulator is None and chosen.drive is None:
             return None
+        other = registry.find("simulator", chosen.simulator or "")
+        if self.recorded or (other is not None and is_recorded(other)):
+            raise ConfigError("validation.simulator" if chosen.simulator else "validation.drive", "what was recorded "
+                              "is trained and validated on in blocks of its own", "simulator.held_out=odd")
         node = dict(self.settings.simulator)
         if chosen.simulator is not None:
             shared = {k: v for k, v in node.items() if k in ("sonar_range_m", "camera_columns", "camera_rows",
@@ -105,10 +111,13 @@ class RunPlan:
             raise ConfigError(blame(cause), describe(cause), "The part could not be constructed") from cause
         self.needs = {need.name: need.unit for need in agent.body.needs}
         simulator = self.simulator_spec[0].name
+        if self.recorded:
+            self.simulator().close()
+            check_recorded(agent, simulator, self.reading.max_cycles)
         for attention in agent.attentions:
             if attention.learner.needs_between:
                 raise ConfigError("learner", f"'{attention.learner.name}' asks for the percepts between looks, which a "
-                                  "robot that does not look has not", "Only a log can give them: see docs/arena.md")
+                                  "robot that does not look has not", "python -m attnlab.arena --log FILE gives them")
             for need in attention.behaviour.feels:
                 if need not in agent.body.index:
                     raise ConfigError(f"behaviours.{attention.behaviour.name}", f"nobody brings a need called '{need}'",
@@ -219,9 +228,21 @@ class RunPlan:
 
     def start_pose(self, phase: str, episode: int) -> tuple[float, float, float]:
         """Where an episode starts: from the seed alone, so that all conditions share it."""
+        if self.recorded:
+            with self.simulator() as simulator:
+                given = simulator.begin(phase, episode)
+            return given[1] if given else simulator.pose()
         if self.reading.start_pose == "fixed":
             return self.layout.steady_start
         return self.layout.random_start(stream(self.settings.seed, "start", phase, episode))
+
+    def begin(self, agent: Agent, phase: str, episode: int) -> tuple[float, float, float]:
+        """Where an episode of this agent starts; its simulator is told which one it is, and may say how long it is."""
+        given = agent.simulator.begin(phase, episode)
+        if given is None:
+            return self.start_pose(phase, episode)
+        agent.max_cycles, pose = given
+        return pose
 
 
 class _NoSimulator:

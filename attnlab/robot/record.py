@@ -56,7 +56,8 @@ class Recorder:
             if self.check:
                 series.check()
             brief = series.brief()
-            self._cover(visits, series.path[1:])
+            if series.placed:
+                self._cover(visits, series.path[1:])
             if self.probes or self.observers:
                 lived = _lived(series, phase, episode, death)
                 for probe in self.probes:
@@ -116,6 +117,8 @@ class Recorder:
                 "hunger": needs.get("hunger", [None] * n), "thirst": needs.get("thirst", [None] * n),
                 "energy": series.energy, "wanting": series.wanting,
                 **{name: [None] * n if values is None else values for name, values in safeties.items()}}
+        if not series.placed:
+            rows |= {name: [None] * n for name in ("x_m", "y_m", "heading_rad", "v_m_s", "w_rad_s")}
         rows.update({name: values for name, values in needs.items() if name not in rows})
         for attention, seen in zip(agent.attentions, series.looks, strict=True):
             name, levels, active = attention.behaviour.name, attention.curiosity.levels, np.zeros(n, bool)

@@ -131,7 +131,7 @@ def play(candidate: str) -> list[Outcome]:
     agent = plan.agent(simulator, json.loads(candidate))
     exploration, outcomes = plan.exploration("train"), []
     for episode in range(episodes):
-        run_episode(agent, exploration, plan.start_pose("evolution", episode), False)
+        run_episode(agent, exploration, plan.begin(agent, "evolution", episode), False)
         active = int(agent.history.columns()[:, 1].sum())
         outcomes.append(Outcome(agent.simulator.cycle, active, agent.max_cycles))
     return outcomes

@@ -36,8 +36,8 @@ class Brief(NamedTuple):
     wanting_mean: float
     safety: Three | None
     safety_held: Three | None
-    path_m: float
-    turn_rad: float
+    path_m: float | None
+    turn_rad: float | None
     needs: dict[str, tuple[float, float]]
     fell: dict[str, list[int]]
     acts: list[Acts]
@@ -63,8 +63,14 @@ class Series:
         self.safety = self.safety_held = None
         if guard is not None:
             seen = self.looks[agent.attentions.index(guard)]
-            self.safety = safety(guard, seen, distances(self.path[1:], layout))
+            gaps = agent.simulator.gaps()
+            self.safety = safety(guard, seen, distances(self.path[1:], layout) if gaps is None else gaps)
             self.safety_held = safety_held(guard, seen, n)
+
+    @property
+    def placed(self) -> bool:
+        """Is it known where the robot was?"""
+        return not np.isnan(self.path).any()
 
     def check(self) -> None:
         """Raise :class:`attnlab.errors.PartError` or :class:`attnlab.robot.identities.IdentityError` if it cannot have
@@ -75,11 +81,12 @@ class Series:
             check_clock(seen.cycle, seen.period, self.agent.simulator.cycle)
 
     def brief(self) -> Brief:
-        steps = np.diff(self.path[:, :2], axis=0)
+        steps, placed = np.diff(self.path[:, :2], axis=0), self.placed
         return Brief(len(self.lengths), _three(self.energy), float(self.wanting.mean()),
                      None if self.safety is None else _three(self.safety),
                      None if self.safety_held is None else _three(self.safety_held),
-                     float(lengths(steps[:, 0], steps[:, 1]).sum()), turning(self.path),
+                     float(lengths(steps[:, 0], steps[:, 1]).sum()) if placed else None,
+                     turning(self.path) if placed else None,
                      {name: (float(values.mean()), float(values.max())) for name, values in self.needs.items()},
                      {need.name: np.flatnonzero(np.diff(self.needs[need.name], prepend=need.start) < 0).tolist()
                       for need in self.agent.body.needs if need.feeds_energy},

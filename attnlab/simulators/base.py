@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import radians
 from random import Random
@@ -71,6 +72,7 @@ class Simulator(ABC):
     """
     name: str
     interpreted = ""  # why it runs as Python alone, where it does not compile
+    recorded = False  # does all go as it went, whatever the robot does? Then behaviours must name it in ``simulators``
 
     def __init__(self, params: SensorParams, context: SimulatorContext):
         self.params, self.layout, self.dt_s = params, context.layout, context.dt_s
@@ -78,6 +80,21 @@ class Simulator(ABC):
         self.camera = Camera(params.camera_columns, params.camera_rows, radians(params.camera_fov_deg))
         self.trace: npt.NDArray[np.float64] = np.zeros((context.max_cycles + 1, 3))
         self.cycle = 0
+
+    @classmethod
+    def settles(cls, params: Any, config: Mapping[str, Any]) -> dict[str, Any]:  # noqa: ARG003  most read none
+        """Of a ``recorded`` simulator: what in a run's config follows from the files it reads, by group, whole. Raises
+        ConfigError."""
+        return {}
+
+    def told(self) -> list[str]:
+        """Of a ``recorded`` simulator: what a reader of the run should know of its files, a line each."""
+        return []
+
+    def begin(self, phase: str, episode: int) -> tuple[int, tuple[float, float, float]] | None:
+        """Which episode comes next; called before :meth:`place` by whoever knows it. (cycles it has, where it starts)
+        if that is not the run's and the world's to say, as it is on a log."""
+        return None
 
     def place(self, x: float, y: float, heading: float) -> None:
         """Start anew: the robot at this pose (m, m, rad), at rest, cycle 0, the world as built."""
@@ -93,6 +110,14 @@ class Simulator(ABC):
     def sonar(self, count: int = len(SONARS)) -> list[float]:
         """Ranges in m from the ring of the first ``count`` of the 16 sonars, in the order of
         :data:`attnlab.simulators.robot.SONARS`."""
+
+    def echoes(self, count: int = len(SONARS)) -> list[float]:
+        """What the first ``count`` sonars hear, m from the robot's centre."""
+        return centre_distances(self.sonar(count))
+
+    def gaps(self) -> npt.NDArray[np.float64] | None:
+        """How near the nearest surface was after each cycle since :meth:`place`, m; None: the layout says."""
+        return None
 
     @abstractmethod
     def blobs(self) -> list[Blob]:

@@ -1,26 +1,22 @@
-"""The Pioneer 3-DX as both simulators know it: footprint, sonar ring, blob camera, unicycle motion.
-
-Sonar poses as published in public descriptions of the robot; the first eight are the frontal ring.
-"""
+"""The Pioneer 3-DX as both simulators know it: footprint, blob camera, and of :mod:`attnlab.pioneer` the sonar ring and
+unicycle motion."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan2, cos, floor, radians, sin, sqrt, tan
+from math import atan2, cos, floor, sin, sqrt, tan
+
+from attnlab.pioneer import FRONT as FRONT
+from attnlab.pioneer import SONARS as SONARS
+from attnlab.pioneer import SONARS_MM_DEG as SONARS_MM_DEG
+from attnlab.pioneer import arc as arc
 
 RADIUS_M = 0.25  # footprint: the circle swept when the robot turns on the spot
 SONAR_HEIGHT_M = 0.2
 CAMERA_HEIGHT_M = 0.25  # half the height of a cube, on the robot's axis
 WHEEL_RADIUS_M = 0.0975
 WHEEL_BASE_M = 0.33
-SONARS_MM_DEG = (
-    (69, 136, 90), (114, 119, 50), (148, 78, 30), (166, 27, 10), (166, -27, -10), (148, -78, -30), (114, -119, -50),
-    (69, -136, -90), (-157, -136, -90), (-203, -119, -130), (-237, -78, -150), (-255, -27, -170), (-255, 27, 170),
-    (-237, 78, 150), (-203, 119, 130), (-157, 136, 90),
-)
-SONARS = tuple((x / 1000, y / 1000, radians(deg)) for x, y, deg in SONARS_MM_DEG)  # (x m, y m, rad), robot frame
-FRONT = range(8)
 SONAR_MIN_M = 0.1
 # r + o along the ray, p across: the hit point's distance from the centre is the length of (r + along, across).
 _ALONG = tuple(x * cos(a) + y * sin(a) for x, y, a in SONARS)
@@ -34,15 +30,6 @@ BEAMS = tuple((x - o * cos(a), y - o * sin(a), cos(a), sin(a), o) for (x, y, a),
 def centre_distances(ranges_m: list[float]) -> list[float]:
     """Sonar ranges (m, from the ring) as distances of the echoes from the robot's centre; the first n sonars of n."""
     return [sqrt((r + o) * (r + o) + pp) for r, (o, pp) in zip(ranges_m, ALONG_AND_ACROSS2, strict=False)]
-
-
-def arc(x: float, y: float, heading: float, v: float, w: float, dt: float) -> tuple[float, float, float]:
-    """The pose after moving for ``dt`` s at ``v`` m/s and ``w`` rad/s: the exact arc of a unicycle."""
-    turn = w * dt
-    if -1e-9 < turn < 1e-9:
-        return x + v * dt * cos(heading), y + v * dt * sin(heading), heading + turn
-    radius, after = v / w, heading + turn
-    return x + radius * (sin(after) - sin(heading)), y - radius * (cos(after) - cos(heading)), after
 
 
 @dataclass(frozen=True)

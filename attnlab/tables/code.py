@@ -59,5 +59,5 @@ def package_hash(more: tuple[str, ...] = ()) -> str:
 
 NUMBERS = frozenset({  # packages and modules whose text decides what a run computes
     "arithmetic", "attention", "compiled", "config", "cycle", "equations", "reading", "settings", "streams",
-    "behaviours", "curiosity", "exploration", "fusion", "kernels", "learners", "needs", "penalty", "probes", "robot",
-    "simulators", "tables", "worlds"})
+    "behaviours", "curiosity", "exploration", "fusion", "kernels", "learners", "logs", "needs", "penalty", "pioneer",
+    "probes", "robot", "simulators", "tables", "worlds"})

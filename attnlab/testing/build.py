@@ -13,6 +13,7 @@ from attnlab.reading import Reading
 from attnlab.robot.contexts import Making
 from attnlab.robot.plan import RunPlan
 from attnlab.settings import build, defaults_of
+from attnlab.testing.log import BLOCKS, small_log
 from attnlab.worlds.base import Layout, World
 
 PERIODS = [1, 4, 8, 12]
@@ -21,11 +22,14 @@ BOXES = [{"kind": kind, "x_m": x, "y_m": y} for kind, x, y in
 
 
 def node(group: str, name: str, **settings: Any) -> dict[str, Any]:
-    """The config of ``group=name``: a part with its defaults, a preset, or a yaml file; changed by ``settings``."""
+    """The config of ``group=name``: a part with its defaults, a preset, or a yaml file; changed by ``settings``.
+    ``simulator=log`` has a small log of its own."""
     load_all()
     if (group, name) == ("reading", "inferred"):
         return {"name": name, **defaults_of(Reading), **settings}
     spec = registry.find(group, name)
+    if (group, name) == ("simulator", "log"):
+        settings = {"file": small_log(), "blocks": BLOCKS, **settings}
     return {**(spec.nodes()[name] if spec else _written(group, name)), **settings}
 
 
@@ -74,7 +78,7 @@ def make(group: str, name: str, *, seed: int = 0, how: Mapping[str, Any] | None 
     return registry.make(group, node(group, name, **settings), context)
 
 
-def config(*, simulator: str = "planar", behaviours: tuple[str, ...] = ("avoid", "eat", "drink"),
+def config(*, simulator: Any = "planar", behaviours: tuple[str, ...] = ("avoid", "eat", "drink"),
            world: Mapping[str, Any] | None = None, how: Mapping[str, Any] | None = None, curiosity: Any = "litman",
            learner: Any = "q_learning", exploration: Any = "softmax", needs: Any = "survival",
            fusion: Any = "min_speed_sum_turn", probe: Any = (), **top: Any) -> dict[str, Any]:

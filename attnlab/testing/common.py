@@ -121,12 +121,15 @@ def plan_of(group: str, name: str, settings: dict[str, Any], **top: Any) -> RunP
     from attnlab.robot.plan import RunPlan
     if group == "behaviours":
         works_in: tuple[str, ...] = getattr(part_of(group, name).cls, "simulators", ())
-        chosen = config(behaviours=tuple(dict.fromkeys(("avoid", name))), simulator=(works_in or ("planar",))[0],
+        others = () if "log" in works_in else ("avoid",)
+        chosen = config(behaviours=tuple(dict.fromkeys((*others, name))), simulator=(works_in or ("planar",))[0],
                         **top)
         chosen["behaviours"][name].update(settings)
     elif group == "needs":
         chosen = config(needs={"name": name, **settings}, behaviours=("avoid",), **top)
     else:
         asked: dict[str, Any] = {group: {"name": name, **settings}}
+        if (group, name) == ("simulator", "log"):
+            asked["behaviours"] = ("watch",)
         chosen = config(**asked, **top)
     return RunPlan(chosen)

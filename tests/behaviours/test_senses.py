@@ -16,7 +16,7 @@ class Counting:
     def __init__(self): self.sonars, self.images = [], 0
     def pose(self): return 1.0, 2.0, 0.5
 
-    def sonar(self, n=16):
+    def echoes(self, n=16):
         self.sonars.append(n)
         return [1.0] * n
 

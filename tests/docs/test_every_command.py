@@ -20,6 +20,7 @@ from attnlab.errors import ConfigError
 from attnlab.launch.compose import Composer
 from attnlab.paths import conf_dir
 from attnlab.testing import config
+from attnlab.testing.log import lines
 from tests.docs.typed import ROOT, commands
 
 OTHERS = {"ros2", "pre-commit"}  # programs of others, named in passing
@@ -68,9 +69,10 @@ def only_read(monkeypatch):
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
-    """A folder in which outputs/STUDY/RUN is a run."""
+    """A folder in which outputs/STUDY/RUN is a run, and FILE a log."""
     from attnlab.robot.folder import run_to_folder
     folder = tmp_path_factory.mktemp("reader")
+    (folder / "FILE").write_text("\n".join(lines()) + "\n")
     assert run_to_folder(config(train_episodes=1, validation_episodes=1, max_cycles=60, simulator="planar"),
                          folder / "outputs" / "STUDY" / "RUN", {"run": "RUN", "key": "k", "overrides": [], "swept": {}})
     return folder

@@ -17,12 +17,12 @@ PACKAGE = ROOT / "attnlab"
 # Rooms (packages, and modules at the top) from the ground up. A room imports from floors below its own, and from none
 # beside it.
 FLOORS = (
-    ("__init__", "errors", "arithmetic", "equations", "streams", "paths", "kernels"),
+    ("__init__", "errors", "arithmetic", "equations", "streams", "paths", "pioneer", "kernels"),
     ("settings", "groups", "console"),
-    ("registry", "reading"),
+    ("registry", "reading", "logs"),
     ("worlds", "needs", "exploration", "fusion", "loading"),
     ("simulators", "learners", "config"),
-    ("behaviours", "tables", "logs"),
+    ("behaviours", "tables"),
     ("curiosity", "penalty"),
     ("attention",),
     ("cycle", "probes"),
@@ -44,7 +44,7 @@ FLOORS = (
 )
 TOP = {  # modules that are no commands
     "__init__", "api", "arithmetic", "attention", "batch", "clock", "config", "console", "cycle", "equations", "errors",
-    "groups", "loading", "paths", "plot", "reading", "registry", "settings", "streams"}
+    "groups", "loading", "paths", "pioneer", "plot", "reading", "registry", "settings", "streams"}
 # thin modules for python -m; the others are packages with __main__
 COMMANDS = {"__main__", "enjoy", "fig1", "new", "parts", "index", "rerun", "retry", "tune", "watch", "work"}
 NO_CODE = {"plugins", "templates"}

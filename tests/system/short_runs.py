@@ -39,6 +39,7 @@ RUNS = {
     "fusion=mean": config(fusion="mean", max_cycles=500),
     "behaviours=avoid,wander,rest": config(behaviours=("avoid", "wander", "rest"), max_cycles=500),
     "simulator=scripted": config(simulator="scripted", behaviours=("give",), needs="energy_only"),
+    "simulator=log": config(simulator="log", behaviours=("watch",), needs="energy_only"),
 }
 COMPILED = ("paper", "curiosity=none", "reading=clipped", "world=places")  # two compositions, each compiled once
 

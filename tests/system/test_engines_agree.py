@@ -130,7 +130,7 @@ def test_engines_agree(composition):
 
 
 def test_every_part_that_compiles_is_played():
-    """Or says why it does not, which three do."""
+    """Or says why it does not, which five do."""
     played = {(group, option) for chosen in COMPOSITIONS for group, names in {**config(), **chosen}.items()
               if group in GROUPS for option in ([names] if isinstance(names, str) else
                                                 [names["name"]] if "name" in names else names)}
@@ -138,20 +138,22 @@ def test_every_part_that_compiles_is_played():
     known = {(spec.group, spec.name): spec.cls.interpreted for spec in registry.parts.values()
              if spec.group in (*GROUPS, "simulator") and spec.cls.__module__.startswith(f"attnlab.{spec.group}"[:-1])}
     assert {key for key, why in known.items() if not why} <= played
-    assert {key for key, why in known.items() if why} == {("behaviours", "give"), ("simulator", "scripted"),
-                                                             ("simulator", "pybullet")}
+    assert {key for key, why in known.items() if why} == {
+        ("behaviours", "give"), ("behaviours", "watch"), ("simulator", "scripted"), ("simulator", "pybullet"),
+        ("simulator", "log")}
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("simulator", ["scripted", "pybullet"])
+@pytest.mark.parametrize("simulator", ["scripted", "pybullet", "log"])
 def test_who_says_that_it_does_not_compile_still_does_not(simulator):
-    """GIVE compiles but for its hand, which is in the first alone."""
+    """GIVE compiles but for its hand, which is in the first alone, WATCH but for its log."""
     pytest.importorskip("pybullet" if simulator == "pybullet" else "numba")
     from attnlab.compiled.engine import Uncompilable
-    hand: dict[str, Any] = {"behaviours": ("give",), "needs": "energy_only"} if simulator == "scripted" else {}
-    assert not hand or registry.parts["behaviours", "give"].cls.simulators == (simulator,)
+    alone = {"scripted": "give", "log": "watch"}.get(simulator)
+    more: dict[str, Any] = {"behaviours": (alone,), "needs": "energy_only"} if alone else {}
+    assert not alone or registry.parts["behaviours", alone].cls.simulators == (simulator,)
     with pytest.raises((AttributeError, KeyError, Uncompilable)):
-        build(RunPlan(config(simulator=simulator, **hand)))
+        build(RunPlan(config(simulator=simulator, **more)))
 
 
 if __name__ == "__main__":
