@@ -84,8 +84,8 @@ def test_the_pages_are_searched():
 
 @pytest.fixture
 def planned(study, monkeypatch):
-    """Arguments -> the runs they ask for, each made up to its start: with the first and the last value of whatever is
-    swept, and of the seeds. Composed as Hydra's main composes it, but what a command shares with another is kept."""
+    """Arguments -> a run they ask for, made up to its start: that of the last value of whatever is swept, and of the
+    seeds; names and settings are looked up for all. Composed as by Hydra's main, but what commands share is kept."""
     from hydra import compose, initialize_config_dir
     from hydra.core.global_hydra import GlobalHydra
 
@@ -99,8 +99,8 @@ def planned(study, monkeypatch):
         master = cache(lambda *chosen: compose("config", [*chosen], return_hydra_config=True))
         composers, whole, every = {}, expand.choices, sweeper.read_variants
         monkeypatch.setattr(sweeper, "Composer", lambda loader, of: composers.setdefault(id(of), Composer(loader, of)))
-        monkeypatch.setattr(expand, "choices", lambda o: [(found := whole(o))[0], *found[1:][-1:]])
-        monkeypatch.setattr(sweeper, "read_variants", lambda node: dict(list(every(node).items())[::-1][:2]))
+        monkeypatch.setattr(expand, "choices", lambda o: whole(o)[-1:])
+        monkeypatch.setattr(sweeper, "read_variants", lambda node: dict(list(every(node).items())[-1:]))
         monkeypatch.setattr(sweeper, "sound", lambda design, *_: [*design.levels][:1])  # no pilots
         options = cache(partial(loader.get_group_options, overrides=[]))
         monkeypatch.setattr(loader, "get_group_options", lambda group, kind, overrides: options(group, kind))

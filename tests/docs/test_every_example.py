@@ -75,6 +75,16 @@ def test_every_block_is_run():
     assert {kind for page in PAGES for kind, _ in BLOCK.findall(page.read_text())} == {*KINDS, *SHOWN}
 
 
+def test_files_and_tests_that_pages_name_are_there():
+    for page in PAGES:
+        spans = re.findall(r"`([^`\n]+)`", page.read_text())
+        named = {found for span in spans for found in re.findall(
+            r"\b(?:attnlab|tests|conf|docs|benchmarks)/[\w/-]+\.(?:py|yaml|md|json|css|js)(?:::\w+)?", span)}
+        for name in (name for name in named if "NAME" not in name):
+            assert (ROOT / name.partition("::")[0]).is_file(), f"{page.name}: {name}"
+            assert "::" not in name or is_there(name), f"{page.name}: {name}"
+
+
 def test_the_readme(reader):
     made = run(shorter(of("README.md", "python")), "README.md")
     assert len(made["study"].episodes) == 3 and made["config"]["seed"] == 3

@@ -32,6 +32,13 @@ def test_every_part_is_there(site_pages):
                 assert f"| `{name}` |" in page
 
 
+def test_every_page_is_in_the_menu(site_pages):
+    menu = set(re.findall(r"[\w/]+\.md", (ROOT / "mkdocs.yml").read_text().partition("\nnav:")[2]))
+    books = {f"notebooks/{book.stem}.md" for book in (ROOT / "docs" / "notebooks").glob("*.ipynb")}
+    written = {str(page.relative_to(ROOT / "docs")) for page in (ROOT / "docs").rglob("*.md")}
+    assert menu == written | set(site_pages.PAGES) | books
+
+
 def test_it_builds_without_a_warning(tmp_path):
     pytest.importorskip("mkdocs")
     done = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "-q", "-d", str(tmp_path / "site")],
