@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 class Energy(Figure):
     """Mean energy of an episode along training, and E_well."""
     title, order, place = "energy", 100, "Fig 10"
+    how = "A point is the mean of 10 training episodes over seeds, with its 95 % bootstrap band; dashed: E_well, " \
+        "below which nothing is left by eq 11."
 
     def draw(self, conditions: Conditions) -> Drawing:
         return one_curve(conditions, "Energy", "energy_mean", 10, "mean energy of an episode, UoE", over=_well)

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 class MaximumNeed(Figure):
     """Largest hunger, thirst and any other need of an episode along training, a column a need."""
     title, order, place = "largest need of an episode", 82, "Fig 8B"
+    how = "A point is the mean of 10 training episodes over seeds, with its 95 % bootstrap band. More than 7 " \
+        "conditions are ranked by the end of training."
 
     def draw(self, conditions: Conditions) -> Drawing:
         drawn, note = rows_of_panels(conditions)

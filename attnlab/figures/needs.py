@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 class Needs(Figure):
     """Hunger, thirst and any other need within an episode."""
     title, order, place = "needs within an episode", 81, "Fig 8A"
+    how = "The last recorded episode of the first seed. A need rises with time and effort and falls with a meal."
 
     def draw(self, conditions: Conditions) -> Drawing:
         import matplotlib.pyplot as plt

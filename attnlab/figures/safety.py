@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 class Safety(Figure):
     """Mean safety (eq 13) of an episode along training."""
     title, order, place = "safety", 90, "Fig 9"
+    how = "A point is the mean of 10 training episodes over seeds, with its 95 % bootstrap band; more is " \
+        "safer."
 
     def draw(self, conditions: Conditions) -> Drawing:
         return one_curve(conditions, "Safety (eq 13)", "safety_mean", 10, "mean safety of an episode, 0-1")

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 class Survival(Figure):
     """Survival time along training, in % of the episode."""
     title, order, place = "survival", 60, "Fig 6"
+    how = "A point is the mean of 50 training episodes (of fewer in a short study), over seeds; the band its 95 % " \
+        "bootstrap interval."
 
     def draw(self, conditions: Conditions) -> Drawing:
         return one_curve(conditions, "Survival", "survival", 50, "survival time, % of the episode", 100.0, marker="o",

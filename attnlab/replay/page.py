@@ -8,6 +8,7 @@ import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from html import escape
+from math import degrees
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from attnlab.worlds.base import Layout
 
 SCRIPTS = ("plane.js", "live.js", "draw.js", "view.js")
 HERE = Path(__file__).parent
+STEP = 5  # cycles between two points of the path that a browser without script shows
 
 
 def script() -> str:
@@ -57,9 +59,24 @@ def page(tracks: Sequence[dict[str, Any]], worlds: Sequence[Mapping[str, Any]], 
     fill = {"TITLE": escape(title), "POLICY": policy, "STYLE": style, "SCRIPT": code, "DATA": data,
             "LEAD": escape(f"{first['phase']} episode {first['episode']} of run {first['run']}"),
             "NOTES": f'<div class="notes" role="note"><ul>{told}</ul></div>' if told else "",
-            "WORDS": "".join(f"<h2>{escape(t['title'])}</h2><p>{escape(t['said'])}</p>{_meals(t)}" for t in tracks)}
+            "WORDS": "".join(f"<h2>{escape(t['title'])}</h2><p>{escape(t['said'])}</p>{_picture(t, world)}{_meals(t)}"
+                             for t, world in zip(tracks, worlds, strict=True))}
     parts = (HERE / "page.html").read_text().split("%%")
     return "".join(fill[part] if i % 2 else part for i, part in enumerate(parts))
+
+
+def _picture(track: Mapping[str, Any], world: Mapping[str, Any]) -> str:
+    """The arena with the path, for a browser without script."""
+    margin, width, depth = 0.15, world["width"], world["depth"]
+    boxes = "".join(f'<rect class="solid {escape(s["kind"])}" x="{-s["l"] / 2:g}" y="{-s["w"] / 2:g}" '
+                    f'width="{s["l"]:g}" height="{s["w"]:g}" transform="translate({s["x"]:g} {s["y"]:g}) '
+                    f'rotate({degrees(s["yaw"]):g})"/>' for s in world["solids"])
+    points = " ".join(f"{x:.2f},{y:.2f}" for x, y in
+                      [track["start"][:2], *zip(track["x"], track["y"], strict=True)][::STEP])
+    return (f'<div class="arena still"><svg viewBox="{-margin:g} {-depth - margin:g} {width + 2 * margin:g} '
+            f'{depth + 2 * margin:g}" role="img" aria-label="The arena from above, with the robot\'s path">'
+            f'<g transform="scale(1,-1)"><rect class="floor" width="{width:g}" height="{depth:g}"/>{boxes}<polyline '
+            f'class="behind" points="{points}"/></g></svg></div>')
 
 
 def _meals(track: Mapping[str, Any]) -> str:

@@ -50,7 +50,14 @@ def open_run(folder: Path) -> Recorded:
     config = read_config(folder)
     if config is None:
         raise ConfigError(str(folder), "config.yaml is missing or unreadable", "Run it again with fresh=true")
-    return Recorded(folder, about, config, RunPlan(config))
+    try:
+        return Recorded(folder, about, config, RunPlan(config))
+    except ConfigError as cause:
+        gone = [name for name in about.get("plugins") or {} if not Path(name).is_file()]
+        if not gone:
+            raise
+        raise ConfigError(cause.setting, cause.problem, f"The run was made with {', '.join(gone)}, not here any more: "
+                          "put it back, or go where it is") from None
 
 
 def choose(run: Recorded, phase: str | None, episode: int | None) -> tuple[str, int, pd.DataFrame | None]:

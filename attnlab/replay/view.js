@@ -184,7 +184,7 @@ function checkItself() {
 }
 
 $("scrub").max = most;
-$("controls").hidden = false;
+$("controls").hidden = $("whatif").hidden = false;
 build();
 seek(0);
 fromHash();

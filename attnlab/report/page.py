@@ -15,6 +15,8 @@ from attnlab.claims.findings import Finding
 from attnlab.claims.judge import Verdict
 from attnlab.report.plates import Shown, chip, plate
 
+NO_SCRIPT = ("<noscript><p class=small>This browser runs no script: tables stay in their order and no value is told at "
+             "the pointer; all else is here.</p></noscript>")
 PROVENANCE = ("<!-- provenance:begin -->", "<!-- provenance:end -->")  # all that may differ between two builds
 
 
@@ -39,7 +41,7 @@ def page(title: str, lead: str, notes: Sequence[str], told: str, verdicts: Seque
         f'<p class="lead">{escape(lead)}</p>', notes_block(notes),
         nav(links), shown, found, *map(_section, first), told,
         '<h2 id="figures">Figures</h2>' if figures else "",
-        *(plate(figure, verdicts) for figure in figures),
+        *(plate(figure, verdicts, any(s.key == "seeds" for s in sections)) for figure in figures),
         *map(_section, sections),
         PROVENANCE[0], '<h2 id="provenance">Provenance</h2>', provenance, PROVENANCE[1]]
     return document(title, parts, script)
@@ -68,7 +70,7 @@ def document(title: str, parts: Sequence[str], script: str = "", style: str = ""
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; img-src data:; '
         f"style-src 'unsafe-inline'; script-src 'sha256-{mark}'\">",
         '<link rel="icon" href="data:,">', f"<title>{escape(title)}</title>", f"<style>\n{style}</style>", "</head>",
-        "<body>", "<main>", f"<h1>{escape(title)}</h1>", *parts,
+        "<body>", "<main>", f"<h1>{escape(title)}</h1>", NO_SCRIPT, *parts,
         "</main>", f"<script>{script}</script>", "</body>", "</html>"]
     return "\n".join(part for part in whole if part) + "\n"
 

@@ -40,8 +40,8 @@ def chip(verdict: Finding, text: str = "") -> str:
     return f'<span class="chip {verdict.css}">{escape(text or verdict)}</span>'
 
 
-def plate(shown: Shown, verdicts: Sequence[Verdict]) -> str:
-    """HTML of a figure; ``verdicts``: all, of which it links to its own."""
+def plate(shown: Shown, verdicts: Sequence[Verdict], watch: bool = False) -> str:
+    """HTML of a figure; ``verdicts``: all, of which it links to its own; ``watch``: to the runs, seed by seed, too."""
     head = f'<figure id="{escape(shown.key)}"><h3>{escape(shown.title)}</h3>'
     if shown.failed:
         return f"{head}<figcaption><p><b>Not drawn:</b> {escape(shown.failed)}</p></figcaption></figure>"
@@ -53,6 +53,7 @@ def plate(shown: Shown, verdicts: Sequence[Verdict]) -> str:
     values = f" data-values='{told}'" if shown.values else ""
     files = ["svg", "png", *(["csv"] if shown.values else [])]
     links = " ".join(f'<a href="figures/{escape(shown.key)}.{kind}">{kind.upper()}</a>' for kind in files)
+    links += ' <a href="#seeds">watch the runs</a>' if watch else ""
     label = f"{shown.title}: the figure" + (", whose values the arrow keys tell" if shown.values else "")
     return (f'{head}<div class=scroll><div class=plot tabindex=0 role=group aria-label="{escape(label)}"{values}>'
             f'<img alt="{escape(shown.title)}. {escape(shown.found)}" src="{shown.picture}"></div></div><figcaption>'

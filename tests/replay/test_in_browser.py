@@ -1,7 +1,12 @@
 """The page in a real headless Chromium: it lives episodes as Python does, moves fast, and its console stays empty."""
 
 import json
+import os
 import re
+import shutil
+import subprocess
+import threading
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
@@ -46,6 +51,9 @@ document.getElementById("told").textContent = JSON.stringify(Object.fromEntries(
     return [name, { ...lived, found: compare(lived, track) }];
   })));
 </script>"""
+BACK = """<script>fetch("/told", {method: "POST", body: document.getElementById("told").textContent});</script>"""
+CODE = "".join((HERE / name).read_text() for name in ("plane.js", "live.js"))
+FIREFOX = shutil.which("firefox-esr") or shutil.which("firefox")
 PROBE = """<!doctype html><meta charset="utf-8"><iframe id="page" src="%s" style="width:%dpx;height:3000px"></iframe>
 <pre id="told"></pre><script>
 document.getElementById("page").onload = function () {
@@ -111,19 +119,19 @@ def chromium(browser, page):
     return browser("--allow-file-access-from-files", "--enable-logging=stderr", "--v=0", "--dump-dom", page.as_uri())
 
 
-def test_the_page_lives_episodes_as_python_does(browser, tmp_path):
-    """Poses within 1e-9 m over whole episodes, and the same clocks, percepts, levels, periods, meals and ends."""
-    runs = {name: python_track(live(tmp_path / name, **settings)) for name, settings in CASES.items()}
+def lived_by_python(home):
+    """(runs, cases that a page is to live, the cycles of the pinned one)."""
+    runs = {name: python_track(live(home / name, **settings)) for name, settings in CASES.items()}
     cases = {name: [track, world(run), []] for name, (run, track, _) in runs.items()}
     # one change that Python can make too: another period for everybody, from the first cycle on
     run, track, _ = runs["curious"]
     cases["pinned"] = [track, world(run), [{"at": 0, "what": "period", "behaviour": name, "period": period}
                                            for name, period in FIXED.items()]]
-    code = "".join((HERE / name).read_text() for name in ("plane.js", "live.js"))
-    (tmp_path / "live.html").write_text(LIVE % (code, json.dumps(cases)))
-    out, err = chromium(browser, tmp_path / "live.html")
-    assert "CONSOLE" not in err, err
-    found = told(out)
+    return runs, LIVE % (CODE, json.dumps(cases)), pinned(run)
+
+
+def agree(found, runs, poses):
+    """Poses within 1e-9 m over whole episodes, and the same clocks, percepts, levels, periods, meals and ends."""
     for name, (_, _, lived) in runs.items():
         mine, cycles = found[name], lived.cycles
         assert mine["n"] == len(cycles) and mine["death"] == lived.death and mine["found"]["same"], name
@@ -136,9 +144,55 @@ def test_the_page_lives_episodes_as_python_does(browser, tmp_path):
     assert len(runs["curious"][2].cycles) >= 1000
     deaths = {name: track["death"] for name, (_, track, _) in runs.items()}
     assert len(set(deaths.values())) >= 3 and sum(len(track["meals"]) for _, track, _ in runs.values()) > 10, deaths
-    poses = pinned(run)
     assert found["pinned"]["n"] == len(poses) != 0 and found["pinned"]["found"]["same"] is False
     assert np.abs(np.array(found["pinned"]["x"]) - poses[:, 0]).max() < 1e-9
+
+
+def test_the_page_lives_episodes_as_python_does(browser, tmp_path):
+    runs, page, poses = lived_by_python(tmp_path)
+    (tmp_path / "live.html").write_text(page)
+    out, err = chromium(browser, tmp_path / "live.html")
+    assert "CONSOLE" not in err, err
+    agree(told(out), runs, poses)
+
+
+@pytest.mark.long
+@pytest.mark.skipif(FIREFOX is None, reason="firefox is not installed (Debian: apt-get install firefox-esr)")
+def test_so_it_does_in_firefox(tmp_path):
+    """A browser with arithmetic of its own: what its page says comes back to a server of this test."""
+    runs, page, poses = lived_by_python(tmp_path)
+    came, said = threading.Event(), []
+
+    class Home(BaseHTTPRequestHandler):
+        def do_GET(self):
+            body = (page + BACK).encode() if self.path == "/" else b""
+            self.send_response(200)
+            self.send_header("Content-Type", "text/html; charset=utf-8")
+            self.end_headers()
+            self.wfile.write(body)
+
+        def do_POST(self):
+            said.append(self.rfile.read(int(self.headers["Content-Length"])))
+            self.send_response(204)
+            self.end_headers()
+            came.set()
+
+        def log_message(self, *_):
+            pass
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Home)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    (tmp_path / "profile").mkdir()
+    firefox = subprocess.Popen([FIREFOX, "--headless", "--no-remote", "--profile", str(tmp_path / "profile"),
+                                f"http://127.0.0.1:{server.server_port}/"], env={**os.environ, "HOME": str(tmp_path)},
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        assert came.wait(240), "Firefox did not answer"
+    finally:
+        firefox.terminate()
+        firefox.wait()
+        server.shutdown()
+        server.server_close()
+    agree(json.loads(said[0]), runs, poses)
 
 
 def pinned(run):
@@ -155,9 +209,8 @@ def pinned(run):
 def test_the_copy_is_no_rubber_stamp(browser, tmp_path):
     """A page whose copy of AVOID differs by a hair does not live the same episode."""
     run, track, _ = python_track(live(tmp_path / "run"))
-    code = "".join((HERE / name).read_text() for name in ("plane.js", "live.js"))
-    wrong = code.replace("d < self.active_m", "d < self.active_m - 0.001")
-    assert wrong != code
+    wrong = CODE.replace("d < self.active_m", "d < self.active_m - 0.001")
+    assert wrong != CODE
     (tmp_path / "live.html").write_text(LIVE % (wrong, json.dumps({"run": [track, world(run), []]})))
     found = told(chromium(browser, tmp_path / "live.html")[0])["run"]["found"]
     assert found["pose_m"] is None or found["pose_m"] > 1e-9  # infinite (null in JSON) if another number of cycles
@@ -186,4 +239,5 @@ def test_the_page_without_script_is_readable(tmp_path):
     run = live(tmp_path / "run", how={"need_start": 800.0}, max_cycles=1150)
     main([str(run), "--quick"])
     words = re.search(r"<noscript>(.*?)</noscript>", (run / "replay.html").read_text(), re.S)[1]
+    assert 'class="behind" points="' in words and words.count("<rect") == 9  # the floor, four walls, four boxes
     assert "runs no script" in words and "looks: avoid" in words and "<td>thirst</td>" in words

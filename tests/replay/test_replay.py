@@ -128,6 +128,8 @@ def test_bad_input_is_one_line(run, tmp_path, capsys):
         (str(broken("a", cycles_parquet="PAR1 not PAR1")),): "cycles.parquet cannot be read",
         (str(broken("b", episodes_parquet="")),): "episodes.parquet is missing or cut off",
         (str(broken("c", config_yaml=gone)),): "no curiosity is called 'vanished'",
+        (str(broken("f", config_yaml=gone, run_json=json.dumps({**about, "plugins": {"plugins/shy.py": "1f"}}))),):
+            "called 'vanished'. The run was made with plugins/shy.py, not here any more",
         (str(broken("d", run_json=json.dumps({**about, "schema": 99}))),): "tables of schema 99",
         (str(broken("e", run_json=json.dumps({**about, "status": "failed"}))),): "no complete run (failed",
         (str(study), "--with", str(tmp_path / "nowhere")): "there is no such run"}

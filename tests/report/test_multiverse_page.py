@@ -7,6 +7,7 @@ import hashlib
 import json
 import re
 from html import escape
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -56,19 +57,24 @@ def planted(name: str = "crash") -> Multiverse:
                       {factor: of[0] for factor, of in levels.items()}, [], curves_of(wanted, x, levels))
 
 
+def write_page(found: Multiverse, study: Path) -> Path:
+    """The page of a multiverse, with a file of readings, in a new folder."""
+    from attnlab.figures.style import drawing
+    (study / "figures").mkdir(parents=True)
+    write_decided(study, DECIDED)
+    with drawing():
+        over = readings.of(found, study, study)
+    html = page("many", "", over.notes, spread.headline(found, CLAIMS), [], [], [], "", over.first_screen,
+                over.sections, over.script)
+    (study / "index.html").write_text(html)
+    return study / "index.html"
+
+
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """(the page's HTML, its folder) of a multiverse with a hostile factor and a file of readings."""
-    from attnlab.figures.style import drawing
-    study = tmp_path_factory.mktemp("multiverse")
-    write_decided(study, DECIDED)
-    (study / "figures").mkdir()
-    with drawing():
-        over = readings.of(planted(HOSTILE), study, study)
-    html = page("many", "", over.notes, spread.headline(planted(HOSTILE), CLAIMS), [], [], [], "", over.first_screen,
-                over.sections, over.script)
-    (study / "index.html").write_text(html)
-    return html, study
+    written = write_page(planted(HOSTILE), tmp_path_factory.mktemp("multiverse") / "study")
+    return written.read_text(), written.parent
 
 
 def test_the_order_of_the_page(built):

@@ -7,6 +7,7 @@ import re
 import shutil
 from html.parser import HTMLParser
 
+import pandas as pd
 import pytest
 
 from attnlab.figures.base import FigureContext, gallery, make
@@ -196,7 +197,6 @@ def test_a_panel_without_lines(tmp_path):
     """A study without needs (of GIVE, say) has figures that say so."""
     study = write_study(tmp_path / "give", seeds=1, curiosities=("none",))
     for file in study.glob("*/episodes.parquet"):
-        import pandas as pd
         frame = pd.read_parquet(file)
         frame[["hunger_max", "thirst_max", "safety_mean"]] = float("nan")
         frame.to_parquet(file)
@@ -260,14 +260,20 @@ def test_from_a_verdict_to_the_seed_to_its_replay(study, tmp_path):
     copy = tmp_path / "seen"
     shutil.copytree(study, copy)
     (copy / "none-seed3" / "replay.html").write_text('<p class="lead">validation episode 3 of run x</p>')
-    page = words(copy)
+    (copy / "none-seed4" / "replay-1.html").write_text('<p class="lead">validation episode 1 of run y</p>')
+    died = pd.read_parquet(copy / "none-seed4" / "episodes.parquet")
+    died.loc[(died["phase"] == "validation") & (died["episode"] <= 1), ["death", "cycles"]] = ("crash", 77)
+    died.to_parquet(copy / "none-seed4" / "episodes.parquet")
+    page = words(copy, "survival")
     (claim,) = re.findall(r'<tr id="claim-C18">.*?</tr>', page, re.S)
     seeds = re.findall(r'href="#seed-(\d)">\1</a>&nbsp;([+-][\d.]+)', claim)
     assert sorted(seed for seed, _ in seeds) == list("012345")
     assert [float(value) for _, value in seeds] == sorted((float(value) for _, value in seeds), reverse=True)
     assert all(page.count(f'id="seed-{seed}"') == 1 for seed in range(6))
     assert '<a href="../none-seed3/replay.html">validation episode 3</a>' in page
+    assert '<td>0 crash, <a href="../none-seed4/replay-1.html#cycle=77">1 crash in cycle 77</a></td>' in page
     assert page.count("python -m attnlab.replay outputs/seen/") == 12
+    assert '<a href="#seeds">watch the runs</a>' in page
 
 
 def test_hypotheses_of_ones_own_are_supported(study, tmp_path):
