@@ -11,12 +11,14 @@ from attnlab.probes.base import Lived
 
 
 def scalars(lived: Lived) -> dict[str, float]:
-    """``phase/name`` -> number: survival, means of energy, wanting, safety and needs, path, and for each behaviour its
-    activations, mean period and sum of rewards (eq 4, without the penalty)."""
+    """``phase/name`` -> number: survival, means of energy, wanting, safety and needs, path if it is known, and for each
+    behaviour its activations, mean period and sum of rewards (eq 4, without the penalty)."""
     steps = np.diff(lived.path[:, :2], axis=0)
     found = {"survival": lived.cycles / lived.max_cycles, "energy_mean": float(lived.energy.mean()),
-             "wanting_mean": float(lived.wanting.mean()), "path_m": float(np.hypot(steps[:, 0], steps[:, 1]).sum()),
+             "wanting_mean": float(lived.wanting.mean()),
              **{f"{name}_mean": float(values.mean()) for name, values in lived.needs.items()}}
+    if not np.isnan(steps).any():
+        found["path_m"] = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
     if lived.safety is not None:
         found["safety_mean"] = float(lived.safety.mean())
     for name, looks in lived.looks.items():

@@ -92,5 +92,7 @@ def text_lines(stream: IO[bytes], ledger: Ledger) -> Iterator[tuple[int, str]]:
         except UnicodeDecodeError:
             ledger.skip("line that is no text", f"line {number}")
             continue
+        if number == 1:
+            text = text.removeprefix("\ufeff")  # of editors that mark their files
         if text:
             yield number, text

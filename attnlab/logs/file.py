@@ -61,7 +61,7 @@ class Log:
         self.ledger = ledger = Ledger()
         if self._lies:
             ledger.note(self._lies)
-        beams, last = None, float("-inf")
+        beams, last, silent = None, float("-inf"), True
         with self._open(ledger) as stream:
             for raw in READERS[self.kind](stream, self.settings, ledger):
                 beams = beams or raw.beams
@@ -79,9 +79,12 @@ class Log:
                 if raw.time_s - last > self.settings.hole_s and last > float("-inf"):
                     ledger.skip(f"hole of more than {self.settings.hole_s:g} s", raw.place)
                 last = raw.time_s
+                silent = silent and min(r for r in ranges if not isnan(r)) >= raw.beams.range_max_m
                 yield Scan(raw.time_s, ranges, raw.beams, raw.pose)
         if beams is None:
             ledger.note("it holds no scan")
+        elif silent and last > float("-inf"):
+            ledger.note(f"no beam ever heard anything within {beams.range_max_m:g} m: are its ranges metres?")
 
 
 def problem(raw: Raw, count: int, last_s: float) -> str:

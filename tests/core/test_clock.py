@@ -1,10 +1,12 @@
 """A clock taken out of a run decides as the run did; its one file stands alone."""
 
+import json
 import shutil
 import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -17,6 +19,7 @@ from attnlab.logs.file import Log
 from attnlab.logs.sonars import nearest_ahead
 from attnlab.robot.folder import run_to_folder
 from attnlab.testing import config
+from benchmarks import clock as bench
 
 SHORT = {"train_episodes": 12, "validation_episodes": 1, "max_cycles": 600, "record": "validation"}
 
@@ -138,3 +141,46 @@ def test_the_file_stands_alone_and_is_fast(curious, tmp_path):
             clock.next(clock.percept(i / 2000), "HH")
         best = min(best, (time.process_time() - began) / 2000)
     assert best < 5e-6
+
+
+def test_the_page_has_what_was_measured():
+    """If not: python benchmarks/clock.py --page."""
+    found = json.loads(bench.RESULT.read_text())
+    text = bench.PAGE.read_text()
+    assert bench.filled(text, found) == text and len(bench.PLACE.findall(text)) == 2
+    assert 0 < found["next"] < 5 and 0 < found["percept"] < 5
+
+
+def test_the_node_of_the_page(monkeypatch, tmp_path):
+    """On stand-ins for ROS: a timer that is set anew after each look, with the cycles that the clock grants. Near (0.2)
+    at every look but the second (0.8, and its NaN-like beams are out of range)."""
+    timers, heard = [], []
+
+    class Node:
+        def __init__(self, name): heard.append(name)
+        def create_subscription(self, kind, topic, keep, qos): heard.append((topic, keep))
+        def destroy_timer(self, timer): timers.remove(timer)
+
+        def create_timer(self, after_s, call):
+            timers.append((after_s, call))
+            return timers[-1]
+    spun = []
+    modules = {"rclpy": {"init": lambda: None, "spin": spun.append}, "rclpy.node": {"Node": Node},
+               "rclpy.qos": {"qos_profile_sensor_data": None}, "sensor_msgs": {},
+               "sensor_msgs.msg": {"LaserScan": None}}
+    for name, content in modules.items():
+        monkeypatch.setitem(sys.modules, name, SimpleNamespace(**content))
+    monkeypatch.setitem(sys.modules, "clock", SimpleNamespace(Clock=Clock))
+    monkeypatch.chdir(tmp_path)
+    Clock([1, 4], ["none"], 0.0, 1.0, 2, [[[0, 1], [0, 1]]], {"dt_s": 0.5}).save("avoid.json")
+    text = bench.PAGE.read_text()
+    exec(text[text.index("import math"):].partition("```")[0], {})
+    [node] = spun
+    granted = []
+    for ranges in (None, (0.2, 9.0), (0.8, 9.0, 0.001), (0.2,), ()):
+        if ranges is not None:
+            heard[1][1](SimpleNamespace(ranges=ranges, range_min=0.05, range_max=5.0))
+        [(after_s, look)] = timers
+        granted.append(after_s)
+        look()
+    assert granted == [0.5, 0.5, 0.5, 2.0, 0.5] and timers[0][0] == 2.0 and node.timer is timers[0]

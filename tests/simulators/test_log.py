@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from attnlab.arena.drive import read_drive
+from attnlab.callbacks.scalars import scalars
 from attnlab.config import run_key
 from attnlab.errors import ConfigError
 from attnlab.logs.base import LogSettings
@@ -80,13 +81,17 @@ def test_the_run_is_the_log(tmp_path):
         {(x, y) for x in (10,) for y in range(10, 210)}
 
 
-def test_a_log_without_poses_says_nowhere_where_the_robot_was(tmp_path):
+def test_a_log_without_poses_says_nowhere_where_the_robot_was(tmp_path, monkeypatch):
     tables = run(simulator={"name": "log", "file": written(tmp_path, poses=False), "blocks": 2}, behaviours=("watch",))
     assert set(tables["cycles"]["x_m"]) == set(tables["cycles"]["v_m_s"]) == set(tables["episodes"]["path_m"]) == {None}
     assert tables["coverage"] == {} and None not in tables["cycles"]["safety"]
+    watched = []
+    monkeypatch.setattr("attnlab.robot.observers.Observers.episode", lambda self, lived: watched.append(scalars(lived)))
+    monkeypatch.setattr("attnlab.robot.observers.Observers.__bool__", lambda self: True)
     posed = run(simulator={"name": "log", "file": written(tmp_path), "blocks": 2, "poses": False},
                 behaviours=("watch",))
     assert posed["cycles"] == tables["cycles"]
+    assert watched and not any(isnan(value) for told in watched for value in told.values())
 
 
 def test_a_sensor_is_read_when_the_clock_fires(tmp_path, monkeypatch):
@@ -170,6 +175,7 @@ def test_it_is_interpreted_and_says_why(tmp_path):
     ({"how": {"dt_s": 0.2}}, "reading.dt_s: is 0.2 s, and a cycle is a scan of the log, 0.1 s"),
     ({"how": {"need_max": 340}}, "needs: hunger may kill within 120 cycles, and in simulator=log nobody can do"),
     ({"world": {"name": "random"}}, "world=random: a log has no other world than its own"),
+    ({"probe": ("clearance",)}, "probe.clearance: this world has no surface to be near to"),
     ({"validation": {"simulator": "planar"}}, "validation.simulator: what was recorded is trained and validated"),
     ({"learner": {"name": "tempo_rl", "observe": "all"}}, "asks for the percepts between looks")])
 def test_what_cannot_be(tmp_path, settings, says):
