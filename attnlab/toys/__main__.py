@@ -42,22 +42,40 @@ def main(argv: Sequence[str]) -> int:
             raise ConfigError(f"--{name}", f"must be at least 1, got {getattr(given, name)}")
     load_all()
     typed = f"python -m attnlab.toys --seeds {given.seeds}" + (f" --short {given.short}" if given.short > 1 else "")
-    made: dict[str, Any] = {"command": typed, "code": code()}
+    told = read(given.table) if given.table else {}
+    ready(given.out)  # before minutes of playing
     if given.table:
-        beside = given.table.with_name("made.json")
-        told, made = read(given.table), json.loads(beside.read_text()) if beside.is_file() else \
-            {"command": f"python -m attnlab.toys --table {given.table.name}", "code": None}
+        made = made_of(given.table)
     else:
-        told = play(range(given.seeds), given.jobs, given.short)
+        told, made = play(range(given.seeds), given.jobs, given.short), {"command": typed, "code": code()}
     write(told, given.out, made)
     return 0
 
 
+def ready(out: Path) -> None:
+    """Make the folder. Raises ConfigError if it cannot be written."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        raise ConfigError("--out", f"{out} cannot be written ({cause.strerror or cause})") from None
+    if not os.access(out, os.W_OK):
+        raise ConfigError("--out", f"{out} cannot be written")
+
+
+def made_of(table: Path) -> dict[str, Any]:
+    """What is written beside a table of who played it."""
+    beside = table.with_name("made.json")
+    unknown = {"command": f"python -m attnlab.toys --table {table.name}", "code": None}
+    try:
+        return {**unknown, **json.loads(beside.read_text())}
+    except (OSError, ValueError, TypeError):
+        return unknown
+
+
 def write(told: Told, out: Path, made: dict[str, Any]) -> dict[str, list[Verdict]]:
-    """Judge, and write all there is to a folder; prints what was found. ``made``: the command that played, and its
-    code."""
+    """Judge, and write all there is to a folder that is there; prints what was found. ``made``: the command that
+    played, and its code."""
     found, files = judged(told), claims()
-    out.mkdir(parents=True, exist_ok=True)
     write_bytes(out / "toys.csv", as_csv(told))
     write_bytes(out / "verdicts.csv", tables.as_csv(found))
     write_bytes(out / "README.md", page(found, files, str(made["command"])).encode())

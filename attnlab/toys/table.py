@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -90,6 +91,9 @@ def read(file: Path) -> Told:
                 row["quantity"]] = float(row["value"])
     except (OSError, KeyError, TypeError, ValueError) as cause:
         raise ConfigError("--table", f"{file} is no table of toys", f"It has the columns {', '.join(HEAD)}") from cause
+    for row in rows:
+        if not math.isfinite(float(row["value"])):
+            raise ConfigError("--table", f"{file} has a value that is no number", f"{row['value']}, of {row['toy']}")
     if not rows or not {row["quantity"] for row in rows} <= set(QUANTITIES):
         raise ConfigError("--table", f"{file} is no table of toys", f"Its quantities are {', '.join(QUANTITIES)}")
     return found

@@ -90,11 +90,13 @@ def test_the_command_writes_the_same_whoever_plays(tmp_path, capsys):
 @pytest.mark.parametrize(("typed", "said"), [
     (["--seeds", "0"], "--seeds: must be at least 1, got 0"), (["--short", "-1"], "--short: must be at least 1"),
     (["--jobs", "0"], "--jobs: must be at least 1"), (["--table", "{}/none.csv"], "is no table of toys"),
-    (["--table", "{}/other.csv"], "is no table of toys"), (["--table", "{}/half.csv"], "is no table of toys")])
+    (["--table", "{}/other.csv"], "is no table of toys"), (["--table", "{}/half.csv"], "is no table of toys"),
+    (["--table", "{}/nan.csv"], "has a value that is no number"), (["--out", "/proc/x"], "/proc/x cannot be written")])
 def test_bad_input_is_one_line_and_nothing_is_written(typed, said, tmp_path, capsys):
     from attnlab.console import guarded
     (tmp_path / "other.csv").write_text("toy,learner,seed,quantity,value\ncliff,tempo_rl,0,beauty,1\n")
+    (tmp_path / "nan.csv").write_text("toy,learner,seed,quantity,value\ncliff,tempo_rl,0,area,nan\n")
     (tmp_path / "half.csv").write_text("toy,learner,seed,quantity,value\ncliff,tempo_rl\n")
-    assert guarded(main, [*(word.format(tmp_path) for word in typed), "--out", str(tmp_path / "out")]) == 2
+    assert guarded(main, ["--out", str(tmp_path / "out"), *(word.format(tmp_path) for word in typed)]) == 2
     error = capsys.readouterr().err
     assert said in error and error.count("\n") == 1 and not (tmp_path / "out").exists()
