@@ -17,6 +17,7 @@ from attnlab.registry import make
 from attnlab.results.old import recovered
 from attnlab.robot.keeping import CHECKPOINT
 from attnlab.robot.recorded import told_of
+from attnlab.tables.claim import clear
 from attnlab.tables.code import code
 from attnlab.tables.ranges import compact, seeds
 from attnlab.tables.study import FILE, Condition, grow
@@ -41,6 +42,7 @@ def complete(jobs: Sequence[Job], typed: Sequence[str]) -> list[tuple[Job, str]]
     todo, done, reasons, old = split(jobs, jobs[0].settings.fresh)
     engines.prepare(todo)
     _ask(jobs, typed)
+    clear(jobs[0].folder.parent, {job.key for job in done})
     if jobs[0].settings.fresh:
         for job in todo:
             (job.folder / CHECKPOINT).unlink(missing_ok=True)

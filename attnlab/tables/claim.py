@@ -15,7 +15,7 @@ import secrets
 import shutil
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -111,6 +111,15 @@ def sweep(study: Path) -> None:
         with contextlib.suppress(OSError):
             if clock - path.stat().st_mtime > PATIENCE_S:
                 shutil.rmtree(path, ignore_errors=True) if path.is_dir() else path.unlink()
+
+
+def clear(study: Path, done: Collection[str]) -> None:
+    """Remove what killed processes kept on the complete runs with these keys."""
+    home = study / FOLDER
+    for name in _names(home):
+        standing = _standing(home / name, None) if name.rpartition(".")[0] in done else None
+        if standing is not None and standing.dead:
+            _remove(home / name)
 
 
 @contextlib.contextmanager

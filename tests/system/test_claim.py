@@ -14,7 +14,7 @@ import pytest
 from attnlab.launch.jobs import ended_under
 from attnlab.launch.shared import done_by_others
 from attnlab.robot.folder import ClaimLostError, run_to_folder
-from attnlab.tables.claim import FOLDER, PATIENCE_S, beating, place, standings, sweep, take
+from attnlab.tables.claim import FOLDER, PATIENCE_S, beating, clear, place, standings, sweep, take
 from attnlab.tables.files import read_json, write_json
 from attnlab.testing.build import config
 
@@ -55,6 +55,15 @@ def test_of_many_who_find_a_dead_one_one_gets_it(tmp_path):
             found = [claim for claim in pool.map(take, [tmp_path] * 16, [f"key{round_}"] * 16) if claim]
             assert len(found) == 1 and found[0].held() and not dead.held()
     assert sorted(path.name for path in (tmp_path / FOLDER).iterdir()) == sorted(f"key{i}.2" for i in range(20))
+
+
+def test_what_the_dead_kept_on_complete_runs_is_cleared(tmp_path):
+    kept = [take(tmp_path, key) for key in ("done", "mine", "missing")]
+    for claim in (kept[0], kept[2]):
+        owned_by(claim, pid=gone())
+    clear(tmp_path, {"done", "mine"})
+    assert sorted(standings(tmp_path)) == ["mine", "missing"]
+    clear(tmp_path / "no study", {"done"})
 
 
 def test_given_back_it_is_free_and_leaves_nothing(tmp_path):
