@@ -16,7 +16,7 @@ from attnlab.errors import ConfigError
 from attnlab.launch.multiverse import balanced, design, imbalance, load_factors
 from attnlab.launch.variants import read_variants
 from attnlab.reading import Reading
-from attnlab.report import curve, curve_tables, multiverse, told
+from attnlab.report import curve, curve_tables, multiverse, spread, told
 from attnlab.results import load
 from attnlab.results.conditions import Conditions
 from attnlab.tables.flat import dig
@@ -120,9 +120,9 @@ def test_an_effect_that_was_put_in_is_found(twelve):
     put_in = moved["crash", "safety_distance"]
     assert put_in.difference == 1.0 and put_in.default == "contact"
     assert moved["need_k", "2"].difference == 0.0
-    assert found.share(found.ids.index("C18")) == (0.5, 12)
-    assert found.share(found.ids.index("C1"))[1] == 0
-    comparisons, moves, claims = told.sections(found)
+    assert found.share(list(found.claims).index("C18")) == (0.5, 12)
+    assert found.share(list(found.claims).index("C1"))[1] == 0
+    (comparisons, moves), claims = told.sections(found), spread.section(found)
     assert "crash=safety_distance +100" in claims.html and "crash 100 %" in moves.html
     assert "hangs on crash" in comparisons.html and "all 64 exchanges of 6 seeds" in comparisons.html
     screen = told.first_screen(found)

@@ -49,7 +49,7 @@ COMPOSITIONS: tuple[dict[str, Any], ...] = (
     {"curiosity": "additive", "learner": "random", "behaviours": ("avoid", "rest")},
     {"curiosity": "novelty_decay", "learner": "always_on", "how": {"need_death": False}},
     {"curiosity": "novelty_window", "learner": "evolution", "how": {"crash": "safety_distance"}},
-    {"curiosity": "surprise_reverse", "learner": "q_learning", "exploration": "ucb1", "fusion": "mean"},
+    {"curiosity": "surprise_reverse", "learner": "steady", "exploration": "ucb1", "fusion": "mean"},
 )
 SMALL = {"evolution": {"generations": 0, "population": 5, "episodes": 1, "workers": 1}}
 OTHERS = {"need_death", "crash", "validation_exploration"}  # of the reading: they are compiled for

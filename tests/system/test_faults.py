@@ -123,7 +123,8 @@ def test_ctrl_c_twice_and_at_once(tmp_path):
     time.sleep(0.1)
     early.send_signal(signal.SIGINT)
     _, err = early.communicate(timeout=60)
-    assert early.returncode in (130, -signal.SIGINT) and "attnlab" not in err.replace("attnlab: stopped", ""), err
+    if "Could not import runpy" not in err:  # on a busy machine Python itself has not begun by then
+        assert early.returncode in (130, -signal.SIGINT) and "attnlab" not in err.replace("attnlab: stopped", ""), err
 
 
 @pytest.mark.parametrize(("line", "says"), [
