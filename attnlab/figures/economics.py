@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from attnlab.results.conditions import Conditions
 
 MARKERS = "osD^vPX*<>ph"
-MOST, SAID = 24, 10  # conditions that can be told apart in a panel, and in a sentence
+MOST, MOST_MARKS, SAID = 24, 10, 10  # conditions that are drawn, can be told apart in a panel, and in a sentence
 
 
 class Point(NamedTuple):
@@ -39,13 +40,19 @@ class Point(NamedTuple):
 
 @register("figure", "attention_economics")
 class Economics(Figure):
-    """Outcome against activations, three panels; small marks are seeds, crosses 95 % intervals of their means."""
+    """Outcome against activations, three panels; small marks are seeds, crosses 95 % intervals of their means. More
+    conditions than can be told apart are ranked."""
     title, order = "Attention economics", 140
-    how = "Large marks are means with 95 % intervals, small ones seeds; grey: baselines, if given."
+    how = "Large marks are means with 95 % intervals, small ones seeds; grey: baselines, if given. More than 10 " \
+        "conditions are ranked by how they survive."
 
     def draw(self, conditions: Conditions) -> Drawing:
         import matplotlib.pyplot as plt
         drawn, (needs, unit) = points(conditions, self.context.baselines, MOST), common_needs(conditions)
+        every = len(first_lines(conditions, 10_000))
+        note = f" (the first {MOST} of {every} conditions)" if every > MOST else ""
+        if len(drawn) > MOST_MARKS:
+            return _ranked(drawn, f"mean of {_and(needs)}, {unit}", note)
         lines_of_legend = -(-len(drawn) // 4)
         figure, axes = plt.subplots(1, 3, figsize=(WIDTH_IN, 3.7 + 0.22 * max(0, lines_of_legend - 3)))
         labels = {"survival": "survival, %", "safety": "mean safety, 0-1", "need": f"mean of {_and(needs)}, {unit}"}
@@ -66,8 +73,6 @@ class Economics(Figure):
             ax.margins(0.08)
             if not ax.lines:
                 empty(ax, "not recorded")
-        every = len(first_lines(conditions, 10_000))
-        note = f" (the first {MOST} of {every} conditions)" if every > MOST else ""
         figure.supxlabel(f"activations in 100 cycles, all behaviours together{note}", fontsize=9.5)
         handles, names = axes[0].get_legend_handles_labels()
         if handles:
@@ -79,6 +84,32 @@ class Economics(Figure):
                  f"{np.nanmean(p.outcomes['survival']):.1f} % survival"
                  for p in points(conditions, self.context.baselines, SAID)]
         return sentence(parts, "", conditions)
+
+
+def _ranked(drawn: Sequence[Point], need: str, note: str) -> Drawing:
+    """A row a condition: what it spends, and what it gets for that; who survives most is on top."""
+    import matplotlib.pyplot as plt
+    order = sorted(drawn, key=lambda of: float(np.nan_to_num(np.mean(of.outcomes["survival"]), nan=-np.inf)))
+    columns = {"activations in 100 cycles": [of.cost for of in order],
+               **{label: [of.outcomes[key] for of in order] for key, label in
+                  (("survival", "survival, %"), ("safety", "mean safety, 0-1"), ("need", need))}}
+    figure, axes = plt.subplots(1, len(columns), figsize=(WIDTH_IN, 1.1 + 0.21 * len(order)), sharey=True)
+    for ax, (label, rows) in zip(axes, columns.items(), strict=True):
+        for place, (of, values) in enumerate(zip(order, rows, strict=True)):
+            if not np.isfinite(values).any():
+                continue
+            mean, low, high = bootstrap_interval(values)[:3]
+            ax.plot(values, [place] * len(values), ls="", marker="o", ms=2.5, alpha=0.35, mew=0, color=of.colour,
+                    gid=of.gid)
+            if np.isfinite(low):
+                ax.plot([low, high], [place, place], color=of.colour, lw=1.6, gid=of.gid)
+            ax.plot(mean, place, "o", ms=4.5, color=of.colour, gid=of.gid)
+        ax.set_title(label.replace(", ", ",\n", 1) if len(label) > 22 else label, fontsize=8.5)
+        ax.locator_params(axis="x", nbins=4)
+        ax.tick_params(axis="x", labelsize=7.5)
+    axes[0].set_yticks(range(len(order)), [cut(of.name, 30) for of in order])
+    figure.supxlabel(f"means over seeds with 95 % intervals{note}", fontsize=9.5)
+    return figure
 
 
 def common_needs(conditions: Conditions) -> tuple[list[str], str]:

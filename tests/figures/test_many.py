@@ -66,6 +66,16 @@ def test_a_ranked_figure_tells_the_value_of_every_row(conditions):
                                 for line in told["lines"] for _, _, x, said in line["at"])
 
 
+def test_many_economies_are_ranked(conditions, monkeypatch):
+    """By survival, who survives most on top; every row tells its mean."""
+    monkeypatch.setattr("attnlab.figures.economics.MOST_MARKS", 8)
+    figure = drawn(conditions, "attention_economics")
+    looks, lived, *_ = found = plots(figure)
+    assert len(found) == 4 and all(plot.rows and len(plot.lines) == len(NAMES) for plot in found)
+    means = [line.points[0, 0] for line in lived.lines]
+    assert means == sorted(means) and [line.name for line in looks.lines] == [line.name for line in lived.lines]
+
+
 def test_a_heat_map_tells_its_cells(conditions):
     plot = plots(drawn(conditions, "policies"))[0]
     assert plot.cells.columns[2] == "percept 3" and plot.cells.rows[:3] == ["rule0, low", "rule0, LH", "rule0, HH"]
