@@ -107,6 +107,13 @@ def add_robot(p: ModuleType, client: int, wheels: bool, visible: bool) -> tuple[
     return body, base_z, (0, 1)
 
 
+def look_at(p: ModuleType, client: int, layout: Layout) -> None:
+    """Bullet's window shows the whole arena, from the south and above, and nothing else."""
+    p.configureDebugVisualizer(p.COV_ENABLE_GUI, 0, physicsClientId=client)
+    p.resetDebugVisualizerCamera(1.1 * max(layout.width_m, layout.depth_m), 0.0, -55.0,
+                                 (layout.width_m / 2, layout.depth_m / 2, 0.0), physicsClientId=client)
+
+
 def draw_beams(p: ModuleType, client: int, robot: int, ranges: list[float], lines: list[int]) -> list[int]:
     """Beams of these ranges (m, from the ring) into Bullet's window, fixed to the robot, in place of ``lines``; their
     numbers."""

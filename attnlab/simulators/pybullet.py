@@ -17,7 +17,7 @@ from attnlab.arithmetic import length, total
 from attnlab.registry import register
 from attnlab.settings import setting
 from attnlab.simulators.base import Blob, SensorParams, Simulator, SimulatorContext
-from attnlab.simulators.bullet_bodies import RAY_GROUP, add_floor, add_robot, add_solids, draw_beams
+from attnlab.simulators.bullet_bodies import RAY_GROUP, add_floor, add_robot, add_solids, draw_beams, look_at
 from attnlab.simulators.bullet_camera import Rays, Segmentation
 from attnlab.simulators.robot import (
     BEAMS,
@@ -81,6 +81,8 @@ class PyBullet(Simulator):
         self._client = p.connect(p.GUI if params.gui else p.DIRECT)
         if self._client < 0:
             raise RuntimeError("pybullet gave no physics client" + (" (no display?)" if params.gui else ""))
+        if params.gui:
+            look_at(p, self._client, self.layout)
         self._finalizer = weakref.finalize(self, _disconnect, p, self._client)
         self._wheels = params.drive == "wheels"
         self._substeps = max(1, round(self.dt_s * PHYSICS_HZ))
