@@ -68,3 +68,15 @@ def test_states_counted_by_hand(name, how, expected):
         found.append(model.liking(memory, 5))
         model.observe(memory, 5)
     assert found == expected
+
+
+def test_where_a_state_is_counted():
+    """With w > 0 a percept is counted after all those with w = 0, and energy at E_well is no wanting. There is a place
+    for each and for no more."""
+    model = make("curiosity", "litman", how={"novelty_over": "state"})
+    memory, bins = model.memory(), model.bins
+    well = model.reading.energy_well
+    for energy, place in ((well + 500.0, 5 + bins), (well, 5), (well - 500.0, 5)):
+        model.attach(SimpleNamespace(body=SimpleNamespace(energy=energy)))
+        assert model.place(memory, 5) == place
+    assert len(memory.visits) == 2 * bins and len(make("curiosity", "litman").memory().visits) == bins
