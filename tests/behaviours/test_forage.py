@@ -35,6 +35,7 @@ def test_its_own_distances_and_gain():
 
 def test_it_heads_for_the_tallest_blob():
     assert command(blob(2.0, 0.1, 20), blob(1.0, -0.3, 40), blob(3.0, 0.2, 10)) == (0.4, pytest.approx(-0.6))
+    assert command(blob(2.0, 0.1, 20), blob(2.0, -0.3, 20)) == (0.4, pytest.approx(0.2))  # the first of equals
 
 
 def meals(forage, *visits):
