@@ -157,15 +157,17 @@ def find(group: str, option: str) -> Spec | None:
 
 def get(group: str, node: Mapping[str, Any], where: str) -> Spec:
     """The part that a config node names. Raises ConfigError if there is none, or if a package it ``requires`` is not
-    installed."""
+    installed (``extra``: of this package, which brings it)."""
     name = node.get("part") or node.get("name")
     spec = parts.get((group, str(name)))
     if spec is None:
         raise unknown(group, str(name), where)
     for package in getattr(spec.cls, "requires", ()):
         if importlib.util.find_spec(package) is None:
+            extra = getattr(spec.cls, "extra", "")
+            what = f"'attnlab[{extra}]'" if extra else package
             raise ConfigError(f"{where}={name}", f"needs the package {package}, which is not installed here",
-                              f"pip install {package}, or choose another {group}")
+                              f"pip install {what}, or choose another {group}")
     return spec
 
 

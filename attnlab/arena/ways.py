@@ -49,8 +49,9 @@ def way(name: str, task: Task, cap: float | None = None) -> Way:
         node["look_cost"] = task.price if part == "self_triggered" else 0.0
     if "below" in node:
         node["below"] = {BEHAVIOUR: task.onset_m / task.sigma_max_m}
-    if part == "evolution":
-        raise ConfigError("--ways", "evolution plays whole episodes, which a log has not", "It can compete in worlds")
+    kind: type[Learner] = spec.cls
+    if kind.rehearses():
+        raise ConfigError("--ways", f"{part} plays whole episodes, which a log has not", "It can compete in worlds")
     if cap is not None:
         node = {**spec_of("capped"), "of": node, "looks_per_s": cap / Reading().dt_s}
     return Way(name, node)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
 import numpy as np
 
 from attnlab.errors import ConfigError
-from attnlab.gym.envs import OF_A_LOOK, SEEDS, Numbers
+from attnlab.gym.envs import SEEDS, Numbers, Overrides, plan_of, seen
 from attnlab.gym.play import Look, Play
-from attnlab.robot.plan import RunPlan
+from attnlab.learners.observation import OF_A_LOOK
 
 try:
     from pettingzoo import AECEnv
@@ -26,10 +25,9 @@ class BehavioursEnv(AECEnv):  # type: ignore[misc]  # it has no types
     told so in its last turn."""
     metadata = {"name": "attnlab_behaviours_v0", "is_parallelizable": False, "render_modes": ["ansi"]}
 
-    def __init__(self, overrides: Sequence[str] = (), penalty: float | None = None, render_mode: str | None = None):
+    def __init__(self, overrides: Overrides = (), penalty: float | None = None, render_mode: str | None = None):
         super().__init__()
-        from attnlab.cli.calls import composed
-        self._plan, self.penalty, self.render_mode = RunPlan(composed(list(overrides))), penalty, render_mode
+        self._plan, self.penalty, self.render_mode = plan_of(overrides), penalty, render_mode
         self.behaviours = {f"{name}_0": name for name in self._plan.settings.behaviours}
         self.possible_agents = list(self.behaviours)
         self._spaces = {name: (gymnasium.spaces.Box(0.0, 1.0, (len(OF_A_LOOK),), np.float32),
@@ -72,13 +70,10 @@ class BehavioursEnv(AECEnv):  # type: ignore[misc]  # it has no types
 
     def observe(self, agent: str) -> Numbers:
         assert self._play is not None, "call reset() first"
-        attention, look = self._play.attentions[self.behaviours[agent]], self._looks.get(agent)
+        look = self._looks.get(agent)
         if look is None:
             return np.zeros(len(OF_A_LOOK), np.float32)
-        low, high = attention.behaviour.sigma_low, attention.behaviour.sigma_high
-        seen = ((look.sigma - low) / (high - low), attention.action / max(1, len(attention.periods) - 1), look.wanting,
-                look.liking, self._play.agent.body.energy / self._plan.reading.energy_max)
-        return np.clip(np.array(seen, np.float32), 0.0, 1.0)
+        return np.array(seen(self._play, self.behaviours[agent], look), np.float32)
 
     def step(self, action: int | None) -> None:
         agent, play = self.agent_selection, self._play

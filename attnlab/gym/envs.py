@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, SupportsFloat
 
 import gymnasium
@@ -10,16 +10,32 @@ import numpy as np
 import numpy.typing as npt
 
 from attnlab.gym.play import Look, Play
+from attnlab.learners.observation import OF_A_LOOK, observation
 from attnlab.robot.plan import RunPlan
 
 Numbers = npt.NDArray[np.float32]
-OF_A_LOOK = ("percept", "period", "wanting", "liking", "energy")  # an observation of one behaviour, each in [0, 1]
+Overrides = Sequence[str] | Mapping[str, Any]
 SEEDS = 2**31
 
 
+def plan_of(overrides: Overrides) -> RunPlan:
+    """The run that overrides of the command line ask for, or that a whole config is. Raises ConfigError."""
+    from attnlab.cli.calls import composed
+    return RunPlan(overrides if isinstance(overrides, Mapping) else composed(list(overrides)))
+
+
+def seen(play: Play, name: str, look: Look) -> list[float]:
+    """:data:`OF_A_LOOK` of a behaviour that looked, with the energy and period of now."""
+    attention = play.attentions[name]
+    behaviour = attention.behaviour
+    return observation(look.sigma, behaviour.sigma_low, behaviour.sigma_high, attention.action,
+                       len(attention.periods), look.wanting, look.liking, play.agent.body.energy,
+                       play.plan.reading.energy_max)
+
+
 class _Robot(gymnasium.Env[Numbers, Any]):
-    """What both environments share. ``overrides``: of the config, as on the command line. ``penalty``: what a death
-    costs instead of ``reading.penalty`` (a network learns little from -1500).
+    """What both environments share. ``overrides``: of the config, as on the command line, or a whole config.
+    ``penalty``: what a death costs instead of ``reading.penalty`` (a network learns little from -1500).
 
     ``reset(seed=s)`` begins the run with seed s at its first training episode, ``reset()`` goes on with the next
     episode; others' learners learn from one to the next. Start poses and streams are those of ``python -m attnlab``
@@ -27,10 +43,8 @@ class _Robot(gymnasium.Env[Numbers, Any]):
     """
     metadata = {"render_modes": ["ansi"], "render_fps": 6}
 
-    def __init__(self, overrides: Sequence[str] = (), penalty: float | None = None, render_mode: str | None = None):
-        from attnlab.cli.calls import composed
-        self.render_mode, self.penalty = render_mode, penalty
-        self._plan = RunPlan(composed(list(overrides)))
+    def __init__(self, overrides: Overrides = (), penalty: float | None = None, render_mode: str | None = None):
+        self.render_mode, self.penalty, self._plan = render_mode, penalty, plan_of(overrides)
         self._play: Play | None = None
         self._looks: dict[str, Look] = {}
 
@@ -67,14 +81,8 @@ class _Robot(gymnasium.Env[Numbers, Any]):
         return self._observation(), earned + paid, dead, over and not dead, self._info()
 
     def _seen(self, name: str) -> list[float]:
-        play = self._play
-        assert play is not None, "call reset() first"
-        attention, look = play.attentions[name], self._looks[name]
-        low, high = attention.behaviour.sigma_low, attention.behaviour.sigma_high
-        energy = play.agent.body.energy / self._plan.reading.energy_max
-        terms = attention.action / max(1, len(attention.periods) - 1)
-        return [min(1.0, max(0.0, v)) for v in ((look.sigma - low) / (high - low), terms, look.wanting, look.liking,
-                                                 energy)]
+        assert self._play is not None, "call reset() first"
+        return seen(self._play, name, self._looks[name])
 
     def _observation(self) -> Numbers:
         raise NotImplementedError
@@ -104,7 +112,7 @@ class AttentionEnv(_Robot):
     ``period`` scaled to [0, 1]. ``terminated``: the robot died; ``truncated``: the cycles are over.
     """
 
-    def __init__(self, behaviour: str = "avoid", overrides: Sequence[str] = (), penalty: float | None = None,
+    def __init__(self, behaviour: str = "avoid", overrides: Overrides = (), penalty: float | None = None,
                  render_mode: str | None = None):
         super().__init__(overrides, penalty, render_mode)
         self.behaviour = behaviour
@@ -130,7 +138,7 @@ class SurvivalEnv(_Robot):
     looks in between. Reward: the sum of what ended periods earned.
     """
 
-    def __init__(self, overrides: Sequence[str] = (), penalty: float | None = None, render_mode: str | None = None):
+    def __init__(self, overrides: Overrides = (), penalty: float | None = None, render_mode: str | None = None):
         super().__init__(overrides, penalty, render_mode)
         self.behaviours = list(self._plan.settings.behaviours)
         Play(self._plan, self.behaviours).close()

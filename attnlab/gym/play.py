@@ -7,11 +7,13 @@ from collections.abc import Mapping, Sequence
 from random import Random
 from typing import Any, NamedTuple
 
+from attnlab import registry
 from attnlab.attention import Attention
 from attnlab.cycle import machine_cycle
 from attnlab.equations import percept_bin
 from attnlab.errors import ConfigError, nearest
 from attnlab.exploration.base import Exploration
+from attnlab.learners.base import Learner
 from attnlab.learners.fixed import NoLearner
 from attnlab.robot.plan import RunPlan
 
@@ -58,6 +60,11 @@ class Play:
             if name not in by_name:
                 raise ConfigError("behaviour", f"the robot has no behaviour '{name}'", nearest(name, by_name))
         self.attentions = {name: by_name[name] for name in deciding}
+        others = self.plan.settings.learner
+        kind: type[Learner] = registry.get("learner", others, "learner").cls
+        if len(self.attentions) < len(by_name) and kind.rehearses():
+            raise ConfigError("learner", f"{others['name']} plays episodes before a run, and here is no run",
+                              "learner=q_learning is for those who are not decided for")
         self.told: dict[str, Told] = {}
         for name, attention in self.attentions.items():
             attention.learner = self.told[name] = Told(None, attention.learner.context)

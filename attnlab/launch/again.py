@@ -62,7 +62,9 @@ def differences(stored: Path, new: Path) -> Iterator[str]:
 
 
 def _code(about: dict[str, Any]) -> Iterator[str]:
-    """In what code and packages differ."""
+    """In what code and packages differ, and whether that may be."""
+    if about.get("exempt_from_same_bytes"):
+        yield f"it need not be the same: {about['exempt_from_same_bytes']}"
     stored, now = about.get("versions") or {}, versions()
     yield from (f"made with {name} {stored.get(name)}, now {now.get(name)}" for name in sorted({*stored, *now})
                 if stored.get(name) != now.get(name))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
 from typing import Any, NamedTuple, Protocol
@@ -41,7 +41,9 @@ class Outcome(NamedTuple):
 
 
 class Rehearse(Protocol):
-    """Episodes that a learner may play before its run; all candidates share world, start poses and luck."""
+    """Episodes that a learner may play before its run; all candidates share world, start poses and luck. ``config``:
+    the run's."""
+    config: dict[str, Any]
     seed: int
     periods: list[int]
     behaviours: list[str]
@@ -54,11 +56,19 @@ class Rehearse(Protocol):
     def keep(self, name: str, content: Any) -> None:
         """Write what was found into the run's folder, as YAML."""
 
+    def once(self, name: str, make: Callable[[], Any]) -> Any:
+        """What ``make`` gives, plain data, kept in the run's folder under ``name``: an interrupted run has it, unless
+        its config or the code has changed, or with ``fresh=true``."""
+
+
+Look = Callable[[], list[float]]  # what is perceived now, see learners.observation; reads sensors of this cycle
+
 
 class Learner(ABC):
     """Learns the next period of one behaviour's clock. ``q`` and ``visits`` are lists by state, then action."""
     name: str
     interpreted = ""  # why it runs as Python alone, where it does not compile
+    exempt = ""  # why its numbers may be others on another machine, where they may
     learns = True
     on_policy = False  # does update need the next action? Then that is chosen before the update, otherwise after
     needs_between = False  # does it learn by ``watched``, from every cycle between looks? Only a log can give them
@@ -83,6 +93,10 @@ class Learner(ABC):
         """The next action."""
         return exploration.choose(self.values(state), self.visits[state], draw)
 
+    def meet(self, look: Look) -> None:
+        """Called once, when the robot is whole, for those who decide by more than the state: ``look`` may be asked
+        while they decide."""
+
     def start(self) -> None:
         """Called before every episode."""
 
@@ -94,6 +108,11 @@ class Learner(ABC):
     def watched(self, path: Sequence[int], rewards: Sequence[float], ended: bool) -> None:
         """In place of ``update`` and ``terminal``, for those with ``needs_between``: learn from a period of n cycles
         whose n + 1 states and n rewards are known. ``ended``: the last one is an end."""
+
+    @classmethod
+    def rehearses(cls) -> bool:
+        """Does it play episodes before its run?"""
+        return cls.prepare.__func__ is not Learner.prepare.__func__  # type: ignore[attr-defined]
 
     @abstractmethod
     def terminal(self, state: int, action: int, reward: float) -> None:

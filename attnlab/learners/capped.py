@@ -113,7 +113,8 @@ def _made(of: Any, context: LearnerContext) -> Learner:
     spec = registry.find("learner", name)
     if spec is None:
         raise registry.unknown("learner", name, "learner.of")
-    if spec.cls is Capped or spec.cls.prepare.__func__ is not Learner.prepare.__func__:  # type: ignore[attr-defined]
+    kind: type[Learner] = spec.cls
+    if kind is Capped or kind.rehearses():
         raise ConfigError("learner.of", f"{name} cannot be capped")
     node = {**spec.nodes()[name], **(of if isinstance(of, Mapping) else {})}
     made: Learner = registry.make("learner", node, context, "learner.of")

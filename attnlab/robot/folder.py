@@ -72,6 +72,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
             observers.start(config)
             engine = Choice(*(info.get("engine") or choose(plan)))
             about.update(engine=engine.name, engine_why=engine.why)
+            if plan.exempt:
+                about["exempt_from_same_bytes"] = plan.exempt
             try:
                 tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers, engine.name,
                                           keeping)

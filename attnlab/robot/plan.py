@@ -16,7 +16,8 @@ from attnlab.curiosity.base import Curiosity
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
-from attnlab.learners.base import Learner, Rehearse
+from attnlab.learners.base import Learner, Look, Rehearse
+from attnlab.learners.observation import observation
 from attnlab.probes.base import Probe
 from attnlab.reading import Reading
 from attnlab.robot.agents import saved
@@ -73,6 +74,12 @@ class RunPlan:
         spec, params = registry.build_params("learner", self.settings.learner, "learner")
         learner: type[Learner] = spec.cls
         self.found = learner.prepare(params, play)
+
+    @property
+    def exempt(self) -> str:
+        """Why the tables may be other bytes on another machine; empty if they may not."""
+        kind: type[Learner] = registry.get("learner", self.settings.learner, "learner").cls
+        return f"learner={self.settings.learner['name']}: {kind.exempt}" if kind.exempt else ""
 
     def _layout(self) -> Layout:
         try:
@@ -155,6 +162,8 @@ class RunPlan:
         fusion = registry.make("fusion", s.fusion, r)
         penalty = registry.make("penalty", {"name": r.penalised}, r, "reading.penalised")
         agent = Agent(attentions, body, simulator, fusion, penalty, r.max_cycles)
+        for attention in attentions:
+            attention.learner.meet(look_of(agent, attention))
         if self.start is not None and learner is None:
             self.start.give(s, agent, self.exploration("train"))
         return agent
@@ -243,6 +252,17 @@ class RunPlan:
             return self.start_pose(phase, episode)
         agent.max_cycles, pose = given
         return pose
+
+
+def look_of(agent: Agent, attention: Attention) -> Look:
+    """What a behaviour of this robot perceives while it decides. A function, so that it is no part of what is kept."""
+    behaviour, energy_max = attention.behaviour, attention.reading.energy_max
+
+    def look() -> list[float]:
+        sigma = behaviour.percept(agent.now)
+        return observation(sigma, behaviour.sigma_low, behaviour.sigma_high, attention.action, len(attention.periods),
+                           attention.wanting, attention.liking, agent.body.energy, energy_max)
+    return look
 
 
 class _NoSimulator:

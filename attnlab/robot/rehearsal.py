@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 import threading
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,8 @@ from attnlab.learners.base import Outcome
 from attnlab.loading import load_all, plugin_hashes
 from attnlab.robot.episode import run_episode
 from attnlab.robot.plan import RunPlan
-from attnlab.tables.files import write_bytes
+from attnlab.tables.code import package_hash
+from attnlab.tables.files import read_json, write_bytes
 from attnlab.tables.processes import end_with_parent
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class Rehearsal:
     def __init__(self, plan: RunPlan, folder: Path | None):
         self.seed, self.periods = plan.settings.seed, plan.settings.periods
         self.behaviours = list(plan.settings.behaviours)
-        self._config, self._folder = dict(plan.config), folder
+        self.config, self._folder = dict(plan.config), folder
         self._seen: dict[str, list[Outcome]] = {}
         self._pool: ProcessPoolExecutor | None = None
 
@@ -70,21 +71,35 @@ class Rehearsal:
             import yaml
             write_bytes(self._folder / name, yaml.safe_dump(content, sort_keys=False).encode())
 
+    def once(self, name: str, make: Callable[[], Any]) -> Any:
+        """What ``make`` gives, kept as ``name``.jsonl with what it hangs on: settings, plugins, code."""
+        counts = {key: value for key, value in self.config.items() if key not in COSMETIC}
+        key = json.loads(json.dumps({**counts, "plugins": plugin_hashes(self.config), "code": package_hash()},
+                                    default=str))
+        file = self._folder / f"{name}.jsonl" if self._folder is not None else None
+        kept = read_json(file) if file is not None and not self.config.get("fresh") else None
+        if kept is not None and kept.get("of") == key:
+            return kept["found"]
+        found = make()
+        if file is not None:
+            write_bytes(file, (json.dumps({"of": key, "found": found}) + "\n").encode())
+        return found
+
     def _key(self, episodes: int) -> str:
         """Of all that an outcome depends on but the candidate; the learner's other settings are the candidate's."""
-        shared = {name: value for name, value in self._config.items() if name not in (*COSMETIC, "learner")}
-        text = json.dumps({**shared, "episodes": episodes, "plugins": plugin_hashes(self._config)}, sort_keys=True,
+        shared = {name: value for name, value in self.config.items() if name not in (*COSMETIC, "learner")}
+        text = json.dumps({**shared, "episodes": episodes, "plugins": plugin_hashes(self.config)}, sort_keys=True,
                           default=str)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def _play(self, candidates: list[str], episodes: int, workers: int) -> Iterable[list[Outcome]]:
         if workers == 1 or not candidates:
-            _open(self._config, episodes)
+            _open(self.config, episodes)
             return map(play, candidates)
         if self._pool is None:
             from concurrent.futures import ProcessPoolExecutor
             from multiprocessing import get_context
-            self._pool = ProcessPoolExecutor(workers, get_context("spawn"), _open, (self._config, episodes))
+            self._pool = ProcessPoolExecutor(workers, get_context("spawn"), _open, (self.config, episodes))
         return self._pool.map(play, candidates)
 
 
