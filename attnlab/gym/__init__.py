@@ -16,4 +16,5 @@ except ImportError:
 
 gymnasium.register("attnlab/Attention-v0", "attnlab.gym.envs:AttentionEnv",
                    vector_entry_point="attnlab.gym.vector:attention")
-gymnasium.register("attnlab/Survival-v0", "attnlab.gym.envs:SurvivalEnv")
+gymnasium.register("attnlab/Survival-v0", "attnlab.gym.envs:SurvivalEnv",
+                   vector_entry_point="attnlab.gym.vector:survival")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, SupportsFloat
 
 import gymnasium
@@ -33,6 +33,11 @@ def seen(play: Play, name: str, look: Look) -> list[float]:
                        play.plan.reading.energy_max)
 
 
+def paid(shares: Iterable[float], instead: float | None) -> float:
+    """The penalties of those who are decided for together, UoR; ``instead``: of each."""
+    return sum((share if instead is None else instead for share in shares if share), 0.0)
+
+
 class _Robot(gymnasium.Env[Numbers, Any]):
     """What both environments share. ``overrides``: of the config, as on the command line, or a whole config.
     ``penalty``: what a death costs instead of ``reading.penalty`` (a network learns little from -1500).
@@ -44,11 +49,13 @@ class _Robot(gymnasium.Env[Numbers, Any]):
     metadata = {"render_modes": ["ansi"], "render_fps": 6}
 
     def __init__(self, overrides: Overrides = (), penalty: float | None = None, render_mode: str | None = None):
-        self.render_mode, self.penalty, self._plan = render_mode, penalty, plan_of(overrides)
+        self.render_mode, self.penalty, self.plan = render_mode, penalty, plan_of(overrides)
         self._play: Play | None = None
         self._looks: dict[str, Look] = {}
 
-    def _deciding(self) -> Sequence[str]:
+    @property
+    def deciding(self) -> Sequence[str]:
+        """The behaviours that are decided for."""
         raise NotImplementedError
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -57,7 +64,7 @@ class _Robot(gymnasium.Env[Numbers, Any]):
         if seed is not None or self._play is None:
             run_seed = seed if seed is not None else int(self.np_random.integers(SEEDS))
             self.close()
-            self._play = Play(self._plan.with_seed(run_seed), self._deciding())
+            self._play = Play(self.plan.with_seed(run_seed), self.deciding)
         self._play.start()
         self._perceive()
         return self._observation(), self._info()
@@ -77,8 +84,8 @@ class _Robot(gymnasium.Env[Numbers, Any]):
             raise gymnasium.error.ResetNeeded("call reset() first")
         over = play.go(actions)
         dead, earned = play.death is not None, self._perceive()
-        paid = sum(share if self.penalty is None else self.penalty for share in play.penalties.values() if share)
-        return self._observation(), earned + paid, dead, over and not dead, self._info()
+        reward = earned + paid(play.penalties.values(), self.penalty)
+        return self._observation(), reward, dead, over and not dead, self._info()
 
     def _seen(self, name: str) -> list[float]:
         assert self._play is not None, "call reset() first"
@@ -116,11 +123,12 @@ class AttentionEnv(_Robot):
                  render_mode: str | None = None):
         super().__init__(overrides, penalty, render_mode)
         self.behaviour = behaviour
-        Play(self._plan, [behaviour]).close()  # whether there is such a behaviour is known now, not at reset
-        self.action_space = gymnasium.spaces.Discrete(len(self._plan.settings.periods))
+        Play(self.plan, [behaviour]).close()  # whether there is such a behaviour is known now, not at reset
+        self.action_space = gymnasium.spaces.Discrete(len(self.plan.settings.periods))
         self.observation_space = gymnasium.spaces.Box(0.0, 1.0, (len(OF_A_LOOK),), np.float32)
 
-    def _deciding(self) -> Sequence[str]:
+    @property
+    def deciding(self) -> Sequence[str]:
         return [self.behaviour]
 
     def step(self, action: Any) -> tuple[Numbers, SupportsFloat, bool, bool, dict[str, Any]]:
@@ -140,13 +148,14 @@ class SurvivalEnv(_Robot):
 
     def __init__(self, overrides: Overrides = (), penalty: float | None = None, render_mode: str | None = None):
         super().__init__(overrides, penalty, render_mode)
-        self.behaviours = list(self._plan.settings.behaviours)
-        Play(self._plan, self.behaviours).close()
+        self.behaviours = list(self.plan.settings.behaviours)
+        Play(self.plan, self.behaviours).close()
         shape = ((1 + len(OF_A_LOOK)) * len(self.behaviours),)
-        self.action_space = gymnasium.spaces.MultiDiscrete([len(self._plan.settings.periods)] * len(self.behaviours))
+        self.action_space = gymnasium.spaces.MultiDiscrete([len(self.plan.settings.periods)] * len(self.behaviours))
         self.observation_space = gymnasium.spaces.Box(0.0, 1.0, shape, np.float32)
 
-    def _deciding(self) -> Sequence[str]:
+    @property
+    def deciding(self) -> Sequence[str]:
         return self.behaviours
 
     def step(self, action: Any) -> tuple[Numbers, SupportsFloat, bool, bool, dict[str, Any]]:

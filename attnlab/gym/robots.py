@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from attnlab.compiled.engine import Compiled, Uncompilable, files_of, reason
+from attnlab.compiled.methods import one_of
 from attnlab.exploration.base import Exploration
 from attnlab.gym import play as of_one
 from attnlab.gym import steps
@@ -17,16 +18,17 @@ from attnlab.tables.code import package_hash
 
 
 class Robot(Compiled):
-    """A :class:`Play` with one behaviour to decide for; ``at``: the addresses of :data:`attnlab.gym.steps.AT`. Raises
-    :class:`Uncompilable`."""
+    """A :class:`Play`; ``at`` and ``ours``: the addresses of :data:`attnlab.gym.steps.OF_ROBOT` and, for each behaviour
+    that is decided for, of :data:`attnlab.gym.steps.OF_OURS`. Raises :class:`Uncompilable`."""
 
     def __init__(self, play: Play):
-        self.play, (self._name,) = play, play.attentions
+        self.play = play
         super().__init__(play.agent, [play.exploration])
-        memory, attention = self._memory, play.attentions[self._name]
+        memory = self._memory
         self.steps: Any = self._episode  # of all robots of this kind
-        self.at = (self._at, memory.address(play.exploration), memory.address(attention),
-                   memory.address(play.told[self._name]))
+        self.at = self._at, memory.address(play.exploration)
+        self.ours = [(memory.address(attention), memory.address(play.told[name]))
+                     for name, attention in play.attentions.items()]
 
     def start(self) -> tuple[float, float, float]:
         """The next episode: where it starts."""
@@ -37,18 +39,20 @@ class Robot(Compiled):
             self._memory.push(play.exploration)
         return play.plan.start_pose("train", play.episode)
 
-    def death(self, word: int) -> tuple[str, float]:
-        """What the robot died of, and the penalty of who is decided for; all learn from theirs."""
+    def death(self, word: int) -> tuple[str, list[float]]:
+        """What the robot died of, and the penalties of those who are decided for; all learn from theirs."""
         cause, agent = self._causes[word], self._agent
         agent.body.dead = True
         self._memory.write(agent.body, "dead")
         shares = check_shares(agent.penalty, cause, [attention.behaviour for attention in agent.attentions])
         paid = [self._died(self._memory.address(attention), share, True)
                 for attention, share in zip(agent.attentions, shares, strict=True)]
-        return cause, paid[[attention.behaviour.name for attention in agent.attentions].index(self._name)]
+        return cause, [share for attention, share in zip(agent.attentions, paid, strict=True)
+                       if attention.behaviour.name in self.play.attentions]
 
     def _entries(self, agent: Any, exploration: Any, only_kept: bool) -> Any:
-        told, _ = self._memory.place(self.play.told[self._name])
+        kinds = tuple(dict.fromkeys(self._memory.place(one)[0] for one in self.play.told.values()))
+        told = kinds[0] if len(kinds) == 1 else one_of(kinds)
         attention = agent.layout["attentions"].of
         ours = b"".join(Path(str(file)).read_bytes() for file in (steps.__file__, of_one.__file__))
         text = f"{agent} {exploration} {told} {package_hash()} {files_of([agent, exploration])}"

@@ -147,6 +147,13 @@ def test_a_penalty_of_ones_own():
     pytest.fail("nobody crashed at period 12 in 20 episodes")
 
 
+def test_stable_baselines3_learns_as_the_page_says(capsys):
+    pytest.importorskip("stable_baselines3")
+    [block] = [block for block in BLOCKS if "stable_baselines3" in block]
+    exec(compile(block, "docs/gym.md", "exec"), {})
+    assert capsys.readouterr().out == "(3,)\n"
+
+
 def test_what_cannot_be_is_one_line():
     for settings, said in (({"behaviour": "avid"}, "Did you mean 'avoid'"), ({"overrides": ["curiosity=litmann"]},
                            "litmann"), ({"overrides": ["reading.reward_period=chosen"]}, "elapsed")):
@@ -187,9 +194,23 @@ def gym_episodes_bare(env):
         yield
 
 
+BLOCKS = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "gym.md").read_text(), re.S)
+
+
 def test_the_page_of_the_docs_runs(capsys):
-    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "gym.md").read_text(), re.S)
-    assert len(blocks) == 3
+    said = []
+    for block in BLOCKS:
+        if "make_vec" not in block and "stable_baselines3" not in block:
+            exec(compile(block, "docs/gym.md", "exec"), {})
+            said.append(capsys.readouterr().out)
+    assert len(said) == 2 and re.fullmatch(r"\d+ (none|crash|hunger|thirst) .*\n", said[0])
+
+
+@pytest.mark.parametrize("engine", ["python", pytest.param("auto", marks=pytest.mark.long)])
+def test_so_do_its_vectors(capsys, engine):
+    """As Python; compiled, as it says there, takes compiling two whole robots."""
+    blocks = [block for block in BLOCKS if "make_vec" in block]
     for block in blocks:
-        exec(compile(block, "docs/gym.md", "exec"), {})
-    assert re.match(r"\d+ (none|crash|hunger|thirst) .*\n\(8, 5\) True\n", capsys.readouterr().out)
+        exec(compile(block.replace('"simulator=planar"', f'"simulator=planar", "engine={engine}"'), "docs/gym.md",
+                     "exec"), {})
+    assert len(blocks) == 1 and capsys.readouterr().out == "(8, 5) True\n(8, 18) [4 4 4]\n"
