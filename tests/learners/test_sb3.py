@@ -182,7 +182,7 @@ def test_a_decision_is_discounted_by_its_cycles(training):
     assert filled(training.Rollout, [0, 1, 2, 3], discounts=powers) == pytest.approx([first, second, third, last])
 
 
-def test_rewards_are_rates_and_a_death_is_clipped(training):
+def test_rewards_are_rates_and_a_death_is_bearable(training):
     class Fake(gymnasium.Env):
         observation_space, action_space = gymnasium.spaces.Box(0.0, 1.0, (5,)), gymnasium.spaces.Discrete(4)
         steps = [(0.5, False, 4), (1.0, False, 16), (-1500.0, True, 17)]
@@ -194,13 +194,14 @@ def test_rewards_are_rates_and_a_death_is_clipped(training):
         def step(self, action):
             reward, died, cycle = next(self.at)
             return np.zeros(5), reward, died, False, {"cycle": cycle}
-    for penalty, worst in ((None, -10.0), (-3.0, -3.0), (-2000.0, -1500.0)):
-        env = training.Paid(Fake(), 0, params(penalty=penalty))
+    for death, penalty, scale in (("clip", -1500.0, 1.0), ("normalise", -1500.0, 10 / 1500), ("clip", 0.0, 1.0),
+                                  ("normalise", -2000.0, 10 / 2000), ("normalise", 0.0, 1.0)):
+        env = training.Paid(Fake(), 0, penalty, params(death=death))
         for _ in range(2):
             env.reset()
             paid = [env.step(0)[1] for _ in range(3)]
-            assert paid == pytest.approx([0.5 * sum(0.9 ** k for k in range(4)), sum(0.9 ** k for k in range(12)),
-                                          worst])
+            rates = [0.5 * sum(0.9 ** k for k in range(4)), sum(0.9 ** k for k in range(12))]
+            assert paid == pytest.approx([*(scale * rate for rate in rates), max(-10.0, scale * -1500)])
 
 
 def test_a_run_trains_for_all_its_behaviours(training, tmp_path):

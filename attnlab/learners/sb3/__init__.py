@@ -35,9 +35,10 @@ class Sb3(NoLearner):
     What it maximises, ours. Decisions last 1 to 12 cycles, so the discount is gamma^cycles (semi-Markov: Bradtke & Duff
     1995); one a decision would bring the future nearer the rarer one looks. For the same reason eq 4's reward, which
     comes once a period, is taken for the rate throughout it, as ``tempo_rl`` does: it counts (1 - gamma^cycles) /
-    (1 - gamma) times, or looking in every cycle would earn more for being paid more often. A death is clipped at
-    ``penalty``, by default -1 / (1 - gamma): rewards are at most 1 a cycle, so that it costs as much as all that could
-    ever be earned, and no target is out of scale; -1500 makes steps that undo all else.
+    (1 - gamma) times, or looking in every cycle would earn more for being paid more often. Targets of -1500 beside
+    rewards within [0, 1] make steps that undo all else a network holds. ``death=normalise`` divides all rewards so that
+    the penalty becomes -1 / (1 - gamma), which changes no preference between policies; ``clip`` cuts the penalty alone
+    there, as much as all that could be earned (at most 1 a cycle): then a rare death costs less than looking does.
 
     In the table ``policy``, q is the mean of what the network said in that state (DQN: values, PPO: logits). Draws
     nothing in the run. PyTorch is seeded by the stream ``sb3/<behaviour>`` and works on one thread, so that training
@@ -54,8 +55,8 @@ class Sb3(NoLearner):
         steps: int = setting(100_000, "decisions of training in all; the behaviours share them equally", low=1,
                              high=10**9)
         gamma: float = setting(0.9, "discount a cycle", low=0, high=0.9999)
-        penalty: float | None = setting(None, "a death costs no more than this in training; null: -1 / (1 - gamma)",
-                                        unit="UoR", high=0)
+        death: Literal["normalise", "clip"] = setting(
+            "normalise", "bring a death's penalty to -1 / (1 - gamma) in training: all rewards, or it alone")
         beside: Any = setting("q_learning", "what the others learn by while one is trained: a name, or {name: ..., "
                               "setting: ...}")
         networks: dict[str, Any] = setting({}, "what training found, by behaviour; nothing to be set by hand")

@@ -30,9 +30,11 @@ def train(config: Mapping[str, Any], behaviour: str, params: Sb3.Params) -> list
 def model(config: Mapping[str, Any], behaviour: str, params: Sb3.Params) -> DQN | PPO:
     """What Stable-Baselines3 makes of it."""
     env = gymnasium.make(ENVIRONMENT, behaviour=behaviour, overrides=config, disable_env_checker=True)
+    penalty = env.get_wrapper_attr("plan").reading.penalty
     more = {"discounts": [params.gamma ** period for period in config["periods"]]}
-    given: dict[str, Any] = {"policy": "MlpPolicy", "env": Paid(env, config["seed"], params), "gamma": params.gamma,
-                             "device": "cpu", "seed": stream(config["seed"], "sb3", behaviour).getrandbits(31)}
+    given: dict[str, Any] = {"policy": "MlpPolicy", "env": Paid(env, config["seed"], penalty, params),
+                             "gamma": params.gamma, "device": "cpu",
+                             "seed": stream(config["seed"], "sb3", behaviour).getrandbits(31)}
     with _left_as_it_was():
         try:
             made = DQN(**given, replay_buffer_class=Replay, replay_buffer_kwargs=more,
@@ -45,13 +47,14 @@ def model(config: Mapping[str, Any], behaviour: str, params: Sb3.Params) -> DQN 
 
 
 class Paid(gymnasium.Wrapper[Any, Any, Any, Any]):
-    """The environment with rewards as rates and a death that is clipped, see :class:`Sb3`; it begins with the run's
-    seed."""
+    """The environment with rewards as rates and a bearable ``penalty`` (UoR), see :class:`Sb3`; it begins with the
+    run's seed."""
 
-    def __init__(self, env: gymnasium.Env[Any, Any], seed: int, params: Sb3.Params):
+    def __init__(self, env: gymnasium.Env[Any, Any], seed: int, penalty: float, params: Sb3.Params):
         super().__init__(env)
         self.gamma, self._seed, self._cycle = params.gamma, seed, 0
-        self.worst = -1.0 / (1.0 - params.gamma) if params.penalty is None else params.penalty
+        self.worst = -1.0 / (1.0 - params.gamma)
+        self.scale = min(1.0, self.worst / penalty) if params.death == "normalise" and penalty else 1.0
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         self._cycle = 0
@@ -60,8 +63,8 @@ class Paid(gymnasium.Wrapper[Any, Any, Any, Any]):
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         seen, reward, died, late, info = super().step(action)
         elapsed, self._cycle = info["cycle"] - self._cycle, info["cycle"]
-        reward = max(float(reward), self.worst) if died else \
-            float(reward) * (1.0 - self.gamma ** elapsed) / (1.0 - self.gamma)
+        reward = self.scale * float(reward)
+        reward = max(reward, self.worst) if died else reward * (1.0 - self.gamma ** elapsed) / (1.0 - self.gamma)
         return seen, reward, died, late, info
 
 
