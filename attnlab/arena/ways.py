@@ -49,7 +49,7 @@ def way(name: str, task: Task, cap: float | None = None) -> Way:
         node["look_cost"] = task.price if part == "self_triggered" else 0.0
     if "below" in node:
         node["below"] = {BEHAVIOUR: task.onset_m / task.sigma_max_m}
-    kind: type[Learner] = spec.cls
+    kind: type[Learner] = registry.get("learner", node, "--ways").cls
     if kind.rehearses():
         raise ConfigError("--ways", f"{part} plays whole episodes, which a log has not", "It can compete in worlds")
     if cap is not None:
