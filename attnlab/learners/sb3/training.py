@@ -6,7 +6,7 @@ import random
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 import numpy as np
@@ -14,8 +14,10 @@ import torch
 from stable_baselines3 import DQN, PPO
 from stable_baselines3.common.buffers import ReplayBuffer, RolloutBuffer
 
-from attnlab.learners.sb3 import Sb3
 from attnlab.streams import stream
+
+if TYPE_CHECKING:
+    from attnlab.learners.sb3 import Sb3
 
 ENVIRONMENT = "attnlab.gym:attnlab/Attention-v0"
 RENEWALS = 100  # of a DQN's targets
