@@ -12,6 +12,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import json
 import os
 import shutil
@@ -54,6 +55,9 @@ def main() -> int:
         parser.error(f"there is no study {', '.join(unknown)}" if unknown else "--short needs --to, not these results")
     for study in () if a.page else STUDIES:
         if not a.names or study.name in a.names:
+            if study.extra and not a.short and importlib.util.find_spec(study.extra[0]) is None:
+                print(f"{study.name} is left out: pip install 'attnlab[{study.extra[1]}]'", file=sys.stderr)
+                continue
             minutes = run(study, a.outputs, a.keep, a.short)
             if minutes is None:
                 print(f"{study.name} is not complete: nothing of it was copied; --keep goes on", file=sys.stderr)

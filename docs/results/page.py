@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+import deep
 import found
 import own
 import truth
@@ -46,7 +47,8 @@ def page(folder: Path) -> str:
     parts += summary(folder, "curiosities", "Every model of curiosity",
                      "All live in the same worlds from the same starts; no model was tuned for it. `surprise` is also "
                      "called `litman_itti`: one model, named once.")
-    parts += [curious(folder), *universe.section(folder), *truth.section(folder)]
+    parts += [curious(folder), *summary(folder, "deep", "Deep networks", deep.text(folder)),
+              *universe.section(folder), *truth.section(folder)]
     for study in OWN:
         parts += own_study(folder, study)
     return "\n\n".join(part for part in parts if part) + "\n"

@@ -12,6 +12,7 @@ SHUFFLED, RANDOM_W = "CR, liking shuffled", "CR, random w"
 OWN_LEVEL, LEVELS = "its own level", ("held at low", "held at LH", "held at HH")
 CAPS = ("1.8", "2.2", "2.6", "3")  # looks a second
 FIXED, LEARNED, MOTIVATED = "fixed at 4", "learned (2012, NCR)", "motivated (2014, CR)"
+DEEP, NETWORKS, RIVALS = "deep", ("DQN", "PPO"), ("Q-learning (NCR)", "TempoRL", "fixed at 4", "random")
 SHORT = ("seed=0-1", "train_episodes=12", "validation_episodes=4", "max_cycles=150")  # does it work? in minutes
 
 
@@ -19,7 +20,8 @@ SHORT = ("seed=0-1", "train_episodes=12", "validation_episodes=4", "max_cycles=1
 class Study:
     """``typed``: arguments of ``python -m attnlab``; ``pairs``: (condition, the one it is held against), "" for every
     other condition; ``page``: is its whole report kept here? ``claims``: the file it is judged by; ``figures``: those
-    that its page has, all if empty; ``leave``: tables that are not kept; ``short``: typed, too, with --short."""
+    that its page has, all if empty; ``leave``: tables that are not kept; ``short``: typed, too, with --short;
+    ``extra``: (package, the extra of ours that brings it), without which it is left out."""
     name: str
     typed: tuple[str, ...]
     what: str
@@ -29,6 +31,7 @@ class Study:
     figures: tuple[str, ...] = ()
     leave: tuple[str, ...] = ()
     short: tuple[str, ...] = ()
+    extra: tuple[str, str] | None = None
 
     @property
     def command(self) -> str:
@@ -69,6 +72,11 @@ STUDIES = (
           ((FIXED, LEARNED), (MOTIVATED, LEARNED), ("", LEARNED)), page=True),
     Study("curiosities", ("+experiment=curiosities", "-m", "seed=0-4"), "every model of curiosity, planar",
           (("", NCR),), page=True),
+    Study(DEEP, (f"+experiment={DEEP}", "-m", "seed=0-2"), "DQN and PPO beside tables, fixed and random clocks, planar",
+          tuple((network, rival) for network in NETWORKS for rival in RIVALS), page=True,
+          leave=("verdicts", "table5", "combinations", "effects"),
+          short=("learner=q_learning,tempo_rl,fixed_4,random",),
+          extra=("stable_baselines3", "sb3")),
     *OWN,
     Study("multiverse", ("+experiment=multiverse", "-m"), "readings of what the paper leaves open, planar",
           page=True, claims="multiverse", figures=("multiverse_curves",),
