@@ -80,8 +80,9 @@ def _steps(env: Any, action: Any, episodes: int) -> None:
 def _turns(env: BehavioursEnv, action: int, episodes: int) -> None:
     for episode in range(episodes):
         env.reset(seed=1 if episode == 0 else None)
-        for agent in env.agent_iter():
-            env.step(None if env.terminations[agent] or env.truncations[agent] else action)
+        for _ in env.agent_iter():
+            _, _, died, out_of_time, _ = env.last()
+            env.step(None if died or out_of_time else action)
 
 
 def page(text: str, found: dict[str, Any]) -> str:

@@ -1,7 +1,7 @@
 """The environments pass the checkers of those who define them, and are the same robot."""
 
+import json
 import re
-import time
 import warnings
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from attnlab.errors import ConfigError  # noqa: E402
 from attnlab.gym.aec import BehavioursEnv  # noqa: E402
 from attnlab.robot.episodes import play_run  # noqa: E402
 from attnlab.robot.plan import RunPlan  # noqa: E402
+from benchmarks import decisions  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 SHORT = ["max_cycles=200"]
@@ -165,33 +166,15 @@ def test_what_cannot_be_is_one_line():
 
 
 def test_a_cycle_costs_at_most_twice_the_plain_loop():
-    how = ["learner=fixed_4", "max_cycles=1150", "check_identities=false", "record=none"]
-    plan = RunPlan(composed([*how, "train_episodes=12", "validation_episodes=0", "seed=1"]))
-    env = made("Attention", overrides=how).unwrapped
-
-    def loop():
-        play_run(plan)
-
-    def steps():
-        list(gym_episodes_bare(env))
-    costs = []
-    for what in (loop, steps):
-        what()
-        times = []
-        for _ in range(3):
-            start = time.process_time()
-            what()
-            times.append(time.process_time() - start)
-        costs.append(min(times))
-    assert costs[1] < 2.0 * costs[0], costs
+    found = decisions.ratios(4, times=3)
+    assert max(of for name, of in found.items() if name != "plain_us") < 2.0, found
 
 
-def gym_episodes_bare(env):
-    for episode in range(12):
-        env.reset(seed=1 if episode == 0 else None)
-        while not any(env.step(1)[2:4]):
-            pass
-        yield
+def test_the_page_says_what_was_measured():
+    """If not: python benchmarks/decisions.py --publish."""
+    text, found = decisions.PAGE.read_text(), json.loads(decisions.RESULT.read_text())
+    assert decisions.page(text, found) == text and "<!-- decisions:" in text
+    assert all(of < 2.0 for row in found["ratios"].values() for name, of in row.items() if name != "plain_us")
 
 
 BLOCKS = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "gym.md").read_text(), re.S)
