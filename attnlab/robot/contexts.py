@@ -7,10 +7,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from attnlab.attention import Attention
 from attnlab.behaviours.base import BehaviourContext
 from attnlab.callbacks.base import CallbackContext
 from attnlab.curiosity.base import CuriosityContext
-from attnlab.learners.base import LearnerContext
+from attnlab.cycle import Agent
+from attnlab.learners.base import LearnerContext, Look
+from attnlab.learners.observation import observation
 from attnlab.probes.base import ProbeContext
 from attnlab.reading import Reading
 from attnlab.simulators.base import SimulatorContext
@@ -50,3 +53,14 @@ class Making:
         if group == "callback":
             return CallbackContext(self.run, self.folder)
         return r if group in ("needs", "fusion", "penalty") else None
+
+
+def look_of(agent: Agent, attention: Attention) -> Look:
+    """What a behaviour of this robot perceives while it decides. A function, so that it is no part of what is kept."""
+    behaviour, energy_max = attention.behaviour, attention.reading.energy_max
+
+    def look() -> list[float]:
+        sigma = behaviour.percept(agent.now)
+        return observation(sigma, behaviour.sigma_low, behaviour.sigma_high, attention.action, len(attention.periods),
+                           attention.wanting, attention.liking, agent.body.energy, energy_max)
+    return look

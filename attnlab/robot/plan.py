@@ -16,12 +16,11 @@ from attnlab.curiosity.base import Curiosity
 from attnlab.cycle import Agent
 from attnlab.errors import ConfigError, describe
 from attnlab.exploration.base import Exploration
-from attnlab.learners.base import Learner, Look, Rehearse
-from attnlab.learners.observation import observation
+from attnlab.learners.base import Learner, Rehearse
 from attnlab.probes.base import Probe
 from attnlab.reading import Reading
 from attnlab.robot.agents import saved
-from attnlab.robot.contexts import Making
+from attnlab.robot.contexts import Making, look_of
 from attnlab.robot.guards import blame
 from attnlab.robot.recorded import check_recorded, is_recorded, settled
 from attnlab.settings import build
@@ -252,17 +251,6 @@ class RunPlan:
             return self.start_pose(phase, episode)
         agent.max_cycles, pose = given
         return pose
-
-
-def look_of(agent: Agent, attention: Attention) -> Look:
-    """What a behaviour of this robot perceives while it decides. A function, so that it is no part of what is kept."""
-    behaviour, energy_max = attention.behaviour, attention.reading.energy_max
-
-    def look() -> list[float]:
-        sigma = behaviour.percept(agent.now)
-        return observation(sigma, behaviour.sigma_low, behaviour.sigma_high, attention.action, len(attention.periods),
-                           attention.wanting, attention.liking, agent.body.energy, energy_max)
-    return look
 
 
 class _NoSimulator:
