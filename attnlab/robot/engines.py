@@ -133,6 +133,13 @@ def never(plan: RunPlan) -> str:
     return ""
 
 
+def exempt(plan: RunPlan) -> str:
+    """Why the tables may be other bytes on another machine; empty if they may not."""
+    learner = plan.settings.learner
+    why = registry.get("learner", learner, "learner").cls.exempt  # type: ignore[attr-defined]
+    return f"learner={learner['name']}: {why}" if why else ""
+
+
 def _interpreted(group: str, node: Any) -> str:
     """What a part says of itself."""
     return str(getattr(registry.get(group, node, group).cls, "interpreted", ""))

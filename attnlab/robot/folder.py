@@ -14,7 +14,7 @@ from typing import Any
 from attnlab.errors import describe
 from attnlab.loading import plugin_hashes, plugin_versions
 from attnlab.robot.agents import FILE as AGENT
-from attnlab.robot.engines import Choice, choose
+from attnlab.robot.engines import Choice, choose, exempt
 from attnlab.robot.episodes import Progress, play_run
 from attnlab.robot.guards import verdict
 from attnlab.robot.keeping import Keeping
@@ -72,8 +72,8 @@ def run_to_folder(config: Mapping[str, Any], folder: Path, info: Mapping[str, An
             observers.start(config)
             engine = Choice(*(info.get("engine") or choose(plan)))
             about.update(engine=engine.name, engine_why=engine.why)
-            if plan.exempt:
-                about["exempt_from_same_bytes"] = plan.exempt
+            if why := exempt(plan):
+                about["exempt_from_same_bytes"] = why
             try:
                 tables, cycles = play_run(plan, info["run"], info["swept"], progress, folder, observers, engine.name,
                                           keeping)

@@ -74,12 +74,6 @@ class RunPlan:
         learner: type[Learner] = spec.cls
         self.found = learner.prepare(params, play)
 
-    @property
-    def exempt(self) -> str:
-        """Why the tables may be other bytes on another machine; empty if they may not."""
-        kind: type[Learner] = registry.get("learner", self.settings.learner, "learner").cls
-        return f"learner={self.settings.learner['name']}: {kind.exempt}" if kind.exempt else ""
-
     def _layout(self) -> Layout:
         try:
             return layout_of(self.settings.world, self.settings.seed)
