@@ -64,3 +64,8 @@ def look_of(agent: Agent, attention: Attention) -> Look:
         return observation(sigma, behaviour.sigma_low, behaviour.sigma_high, attention.action, len(attention.periods),
                            attention.wanting, attention.liking, agent.body.energy, energy_max)
     return look
+
+
+class NoSimulator:
+    """Stands in for a simulator while parts are only constructed."""
+    cycle = 0

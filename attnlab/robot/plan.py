@@ -20,7 +20,7 @@ from attnlab.learners.base import Learner, Rehearse
 from attnlab.probes.base import Probe
 from attnlab.reading import Reading
 from attnlab.robot.agents import saved
-from attnlab.robot.contexts import Making, look_of
+from attnlab.robot.contexts import Making, NoSimulator, look_of
 from attnlab.robot.guards import blame
 from attnlab.robot.recorded import check_recorded, is_recorded, settled
 from attnlab.settings import build
@@ -179,7 +179,7 @@ class RunPlan:
 
     def parts_alone(self) -> Agent:
         """The robot without a world, for those who only ask its parts."""
-        return self.agent(simulator=cast(Simulator, _NoSimulator()))
+        return self.agent(simulator=cast(Simulator, NoSimulator()))
 
     def making(self, run: str = "run", folder: Path | None = None) -> Making:
         """What the run's parts are made from."""
@@ -245,8 +245,3 @@ class RunPlan:
             return self.start_pose(phase, episode)
         agent.max_cycles, pose = given
         return pose
-
-
-class _NoSimulator:
-    """Stands in for a simulator while parts are only constructed."""
-    cycle = 0
