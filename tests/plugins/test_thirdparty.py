@@ -68,6 +68,7 @@ def test_a_package_is_found_by_its_entry_point(place, tmp_path):
     assert unknown.returncode == 2 and "island" in unknown.stderr
 
 
+@pytest.mark.long
 def test_a_package_brings_files_measures_and_figures(place, tmp_path):
     """Claims, tables and open points of its conf are found by name; its column is measured, judged and drawn."""
     def python(*arguments):

@@ -159,10 +159,10 @@ class Clumsy(Callback):
 """
 
 
-def test_callbacks_of_a_plugin(attnlab, tmp_path):
+def test_callbacks_of_a_plugin(attnlab, here, tmp_path):
+    assert here(*SHORT, "study=alone").returncode == 0
     (tmp_path / "plugins").mkdir()
     (tmp_path / "plugins" / "onlookers.py").write_text(ONLOOKERS)
-    assert attnlab(*SHORT, "study=alone").returncode == 0
     done = attnlab(*SHORT, "callback=[tally,clumsy,jsonl]", "study=watched")
     assert done.returncode == 0, done.stderr
     assert done.stderr.count("callback=clumsy is left out from here on: plugins/onlookers.py:18: RuntimeError") == 1

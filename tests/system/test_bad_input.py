@@ -180,7 +180,7 @@ FRAGMENTS = ("curiosity", "learner", "behaviours", "seed", "reading", "study", "
              '"', " ", "\n", "\0", "range(0,3)", "glob(*)", "choice(", "é", "-m", "--cfg", "../x")
 
 
-@settings(max_examples=150, deadline=None, derandomize=True,
+@settings(max_examples=60, deadline=None, derandomize=True,
           suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.lists(st.sampled_from(FRAGMENTS), min_size=1, max_size=6).map("".join), min_size=1, max_size=3))
 def test_whatever_is_typed(complain, monkeypatch, arguments):

@@ -32,10 +32,10 @@ def test_twice_in_one_process(tmp_path, simulator, curiosity):
     assert digest(tmp_path / "one") == digest(tmp_path / "two")
 
 
-def test_serial_and_parallel_and_another_order(attnlab, tmp_path):
+def test_serial_and_parallel_and_another_order(attnlab, here, tmp_path):
     common = ("+experiment=cr_vs_ncr", "train_episodes=3", "validation_episodes=1", "max_cycles=200", "report=false",
               "picture=false", "simulator=pybullet")
-    assert attnlab(*common, "seed=0-1", "cluster.jobs=1", "outputs=serial").returncode == 0
+    assert here(*common, "seed=0-1", "outputs=serial").returncode == 0
     assert attnlab(*common, "seed=1,0", "cluster.jobs=2", "outputs=parallel").returncode == 0
     runs = sorted(p.name for p in (tmp_path / "serial" / "cr_vs_ncr").iterdir() if p.is_dir() and p.name != ".claims")
     assert len(runs) == 4

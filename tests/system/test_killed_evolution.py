@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 from attnlab.tables.schema import TABLES
 
 COMMAND = ("learner=evolution", "learner.generations=4", "learner.population=6", "learner.episodes=4",
@@ -24,6 +26,7 @@ def genomes(folder: Path) -> list[str]:
     return [json.loads(line)["candidate"] for line in lines]
 
 
+@pytest.mark.long
 def test_killed_and_typed_again(attnlab, tmp_path):
     root = Path(__file__).resolve().parents[2]
     process = subprocess.Popen([sys.executable, "-m", "attnlab", *COMMAND, "study=killed"], cwd=tmp_path,

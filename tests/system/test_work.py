@@ -37,7 +37,7 @@ def asked(complain, monkeypatch, tmp_path):
     return call
 
 
-def test_two_shares_do_a_study_and_the_bytes_are_those_of_one_command(asked, attnlab, tmp_path):
+def test_two_shares_do_a_study_and_the_bytes_are_those_of_one_command(asked, here, tmp_path):
     sweep = ("curiosity=litman,none", "learner.alpha=0.3,0.5", "labels={litman: CR}", "callback=[jsonl]", *SHORT)
     folder = asked(*sweep)
     both = [begun(tmp_path, "outputs/asked", "--share", f"{i}/2", "--jobs", "1") for i in (1, 2)]
@@ -46,7 +46,7 @@ def test_two_shares_do_a_study_and_the_bytes_are_those_of_one_command(asked, att
     runs = runs_of(folder)
     assert len(runs) == 4 and {about["status"] for about in runs.values()} == {"complete"}
     assert not list((folder / ".claims").iterdir())
-    assert attnlab(*sweep, "study=straight").returncode == 0
+    assert here(*sweep, "study=straight").returncode == 0
     straight = tmp_path / "outputs" / "straight"
     for name, about in runs_of(straight).items():
         assert {key: about[key] for key in ("swept", "condition", "key", "claims")} == \
@@ -55,12 +55,12 @@ def test_two_shares_do_a_study_and_the_bytes_are_those_of_one_command(asked, att
         assert {file.name for file in (folder / name).iterdir()} == {file.name for file in (straight / name).iterdir()}
         for file in (straight / name).glob("*.parquet"):
             assert file.read_bytes() == (folder / name / file.name).read_bytes()
-    again = attnlab("asked", module="attnlab.work")
+    again = here("asked", module="attnlab.work")
     assert again.returncode == 0 and "nothing to do, 4 complete of 4 runs" in again.stdout
     table = next(folder.glob("*/episodes.parquet"))
     whole = table.read_bytes()
     table.write_bytes(whole[:900] + bytes([whole[900] ^ 1]) + whole[901:])
-    assert "1 of 4 runs to be done" in attnlab("asked", module="attnlab.retry").stdout
+    assert "1 of 4 runs to be done" in here("asked", module="attnlab.retry").stdout
     assert table.read_bytes() == whole
 
 
