@@ -36,6 +36,16 @@ def long(session: nox.Session) -> None:
     session.run("python", "-m", "pytest", "-q", "-m", "long", *session.posargs)
 
 
+@nox.session(default=False)
+def extras(session: nox.Session) -> None:
+    """What is in no other environment, PyTorch among it: learner=sb3, the checkers, the callbacks."""
+    session.install("-e", ".[test,sb3,tensorboard,mlflow,wandb]")
+    session.run("python", "-m", "pytest", "-q", "-m", "long or not long", "tests/learners/test_sb3.py", "tests/gym",
+                "tests/robot/test_dashboards.py", "tests/docs/test_deep_results.py", *session.posargs)
+    session.run("python", "-m", "pytest", "-q", "tests/conformance/test_every_part.py", "-k",
+                "sb3 or dqn or ppo or tensorboard or mlflow or wandb")
+
+
 @nox.session
 def lint(session: nox.Session) -> None:
     """Code, spelling, pages."""

@@ -26,7 +26,7 @@ class Mlflow(Callback):
         experiment: str = setting("attnlab", "of MLflow")
 
     params: Params
-    requires = ("mlflow",)
+    requires, extra = ("mlflow", "sqlalchemy", "alembic"), "mlflow"
 
     def start(self, config: Mapping[str, Any]) -> None:
         self._client = None

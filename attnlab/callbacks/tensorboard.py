@@ -15,7 +15,7 @@ class TensorBoard(Callback):
     """An event file in ``tensorboard/`` of the run's folder, a step an episode: ``tensorboard --logdir outputs/STUDY``.
     Needs the extra ``tensorboard``, and neither TensorFlow nor PyTorch. Nothing is written for a run that is not
     stored."""
-    requires = ("tensorboard",)
+    requires, extra = ("tensorboard",), "tensorboard"
 
     def episode(self, lived: Lived) -> None:
         if self.folder is None:

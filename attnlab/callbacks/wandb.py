@@ -24,7 +24,7 @@ class Wandb(Callback):
         mode: Literal["offline", "online"] = setting("offline", "write to disk, or to their server")
 
     params: Params
-    requires = ("wandb",)
+    requires, extra = ("wandb",), "wandb"
 
     def start(self, config: Mapping[str, Any]) -> None:
         import wandb

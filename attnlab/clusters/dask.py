@@ -20,7 +20,7 @@ from attnlab.tables.processes import cores
 class Dask(Tasks):
     """Tasks of any Dask cluster by its address (pip install 'attnlab[dask]'), and so of PBS, SGE, LSF, HTCondor and
     Kubernetes; docs/clusters.md shows how."""
-    requires = ("distributed",)
+    requires, extra = ("distributed",), "dask"
 
     @dataclass
     class Params(TaskParams):

@@ -18,7 +18,7 @@ from attnlab.tables.processes import cores
 @register("cluster", "ray")
 class Ray(Tasks):
     """Tasks of a Ray cluster (pip install 'attnlab[ray]'), retried when their node dies."""
-    requires = ("ray",)
+    requires, extra = ("ray",), "ray"
 
     @dataclass
     class Params(TaskParams):

@@ -16,6 +16,7 @@ CASES = [(spec.group, option, check) for spec in registry.parts.values() if spec
          for option in (spec.name, *spec.presets) for check in checks(spec.group)]
 
 SMALL = {("learner", "evolution"): {"generations": 1, "population": 5, "episodes": 1},  # the same, sooner
+         **{("learner", name): {"steps": 400} for name in ("sb3", "dqn", "ppo")},
          ("measure", "survival_convergence"): {"episodes": [0, 6], "block": 2},  # what a study of six episodes has
          ("measure", "reward_convergence"): {"episodes": [0, 6], "block": 2, "end": 2},
          ("measure", "reward_rise"): {"early": [0, 3], "late": [3, 6]},

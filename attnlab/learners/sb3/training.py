@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 ENVIRONMENT = "attnlab.gym:attnlab/Attention-v0"
 RENEWALS = 100  # of a DQN's targets
+BATCH = 64  # of PPO: a rollout, 2048 decisions, is some of them where there are fewer
 
 
 def train(config: Mapping[str, Any], behaviour: str, params: Sb3.Params) -> list[list[Any]]:
@@ -42,7 +43,8 @@ def model(config: Mapping[str, Any], behaviour: str, params: Sb3.Params) -> DQN 
             made = DQN(**given, replay_buffer_class=Replay, replay_buffer_kwargs=more,
                        buffer_size=min(params.steps, 1_000_000),
                        target_update_interval=max(1, params.steps // RENEWALS)) if params.algorithm == "dqn" else \
-                PPO(**given, rollout_buffer_class=Rollout, rollout_buffer_kwargs=more)
+                PPO(**given, rollout_buffer_class=Rollout, rollout_buffer_kwargs=more,
+                    n_steps=min(2048, max(1, params.steps // BATCH) * BATCH))
             return made.learn(params.steps)
         finally:
             env.close()
