@@ -5,11 +5,12 @@ from __future__ import annotations
 from itertools import pairwise
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from attnlab.attention import Attention
+from attnlab.attention import Activation, Attention, Log
 from attnlab.curiosity.base import CuriosityContext
 from attnlab.curiosity.litman import Litman
 from attnlab.curiosity.none import NoCuriosity
@@ -110,6 +111,35 @@ def test_commands_are_held_and_released():
     drive_on = drive(attention([0.9, 0.1]), Choose([1]), 5)
     assert drive_on.command is None
     assert [x.released for x in drive_on.log] == [True, False]
+
+
+@pytest.mark.parametrize(("active", "expected"), [("fired", [1, 1]), ("released", [1, 0])])
+def test_who_counts_as_active(active, expected):
+    """Released at 0.9, not at 0.1."""
+    a, now = attention([0.9, 0.1], active=active), SimpleNamespace(body=SimpleNamespace(energy=4600.0))
+    assert [a.activate(now, Choose([0]), True) for now.cycle in (0, 1)] == expected
+
+
+def test_what_compiled_code_writes_reads_as_what_was_appended():
+    """Two activations, all fields different; of the first nothing was earned. Rows beyond ``rows`` are not of it."""
+    looks = Log([Activation(0, 0.5, 3, 2, 4, 0.25, 0.75, True, None, None),
+                 Activation(4, 0.125, 1, 0, 8, 0.0, 0.0625, False, 0.375, -0.5)])
+    written = Log()
+    written.table = np.array([*looks, [99.0] * 10], np.float64)
+    written.rows = 2
+    assert written.looks() == looks.looks() == tuple(looks)
+    assert [type(x) for x in written.looks()[1]] == [int, float, int, int, int, float, float, bool, float, float]
+    for one, other in zip(written.columns(), looks.columns(), strict=True):
+        assert one.shape == (2,) and np.array_equal(one, other, equal_nan=True)
+
+
+def test_a_level_is_held_where_nothing_is_learned():
+    """Level 0, which has the index of no wanting, where there is wanting; who learns has the level there is."""
+    for learning, levels in ((False, {0}), (True, {2})):
+        a = attention([0.5], Litman)
+        a.clamp = 0
+        drive(a, Choose([0]), 3, learning=learning)
+        assert {x.level for x in a.log} == levels
 
 
 def test_penalty_by_share():
