@@ -48,6 +48,8 @@ NOTES = (
     "Equal looks: 'saved' is the harm of a clock of fixed period that looks as often, less the way's own, on the same "
     "blocks or seeds. In worlds clocks of any mean period ('steady') stand between the fixed ones. A way outside of "
     "what these span has no such number.",
+    "These clocks have one period for all behaviours of a robot. A way that saves may do so by giving AVOID more looks "
+    "than the others and not by what it sees: 'fixed_12 avoid=8' and 'avoid=4' do that blindly.",
     "Better and worse are said of ways whose 'saved' differs from zero by the paired t test, corrected by Holm for all "
     "ways of the place (5 % together); intervals are each on its own. 'of resamples': in how many of 1,000 resampled "
     "sets of seeds or blocks a way is on the front.",
@@ -99,10 +101,11 @@ def main(argv: Sequence[str]) -> int:
              for place in dict.fromkeys(row.place for row in rows)}
     given.out.mkdir(parents=True, exist_ok=True)
     write_board(rows, given.out / "leaderboard.jsonl")
-    for name, text in (("index.html", page(found, strips, given.price, told, [*missing, *NOTES], read)),
-                       ("arena.md", plain(found, given.price)), ("standings.csv", standings_csv(found)),
-                       ("ranks.csv", ranks_csv(found))):
-        write_bytes(given.out / name, text.encode())
+    for name, content in (
+            ("index.html", page(found, strips, given.price, told, [*missing, *NOTES], read).encode()),
+            ("arena.md", plain(found, given.price).encode()), ("standings.csv", standings_csv(found)),
+            ("ranks.csv", ranks_csv(found))):
+        write_bytes(given.out / name, content)
     print(plain(found, given.price).partition("\n## ")[0].strip())
     print(*(f"read only: {line}" for line in read), *missing, given.out / "index.html", sep="\n")
     return 0

@@ -38,7 +38,7 @@ def world_strips(study: Study) -> dict[str, str]:
         config = study.config(run)
         name = name_of(config, settings[run])
         if study.seed(run) == min(seeds) and not name.startswith("("):
-            found.setdefault(place_of(config), {})[name] = run
+            found.setdefault(place_of(config, settings[run]), {})[name] = run
     return {place: drawn for place, runs in sorted(found.items()) if (drawn := _world(study, place, runs))}
 
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Mapping, Sequence
 
 from attnlab.arena.summary import PRICES, Ends, Standing, kept, leaders, order, ranks
+from attnlab.tables.csvs import csv_bytes
 
 Places = Mapping[str, Sequence[Standing]]
 HEADS = ("place", "way", "between", "units", "looks", "looks_low", "looks_high", "harm", "harm_low", "harm_high",
@@ -79,26 +78,19 @@ def table(found: Sequence[Standing]) -> list[str]:
     return lines
 
 
-def standings_csv(places: Places) -> str:
+def standings_csv(places: Places) -> bytes:
     """All standings, a row a place and way; shares, not hundredths."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(HEADS)
+    rows = []
     for place, found in places.items():
         for s in found:
             ends = [*s.looks, *s.harm, *(s.saved or (None,) * 3), s.p, s.holm]
-            writer.writerow([place, s.way, int(s.between), s.units,
-                             *("" if x is None else f"{x:.6g}" for x in ends), s.verdict, int(s.front),
-                             f"{s.often:.3f}" if s.competes else ""])
-    return sink.getvalue()
+            rows.append([place, s.way, int(s.between), s.units, *("" if x is None else f"{x:.6g}" for x in ends),
+                         s.verdict, int(s.front), f"{s.often:.3f}" if s.competes else ""])
+    return csv_bytes(HEADS, rows)
 
 
-def ranks_csv(places: Places) -> str:
+def ranks_csv(places: Places) -> bytes:
     """Place of each way at each price."""
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["place", "way", *(f"{price:g}" for price in PRICES)])
-    for place, found in places.items():
-        if order(found, 0.0):
-            writer.writerows([place, way, *of] for way, of in ranks(found).items())
-    return sink.getvalue()
+    rows = [[place, way, *of] for place, found in places.items() if order(found, 0.0)
+            for way, of in ranks(found).items()]
+    return csv_bytes(["place", "way", *(f"{price:g}" for price in PRICES)], rows)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 WORLDS = ("paper", "open", "cluttered", "wandering")
 PERIODS = (11, 10, 9, 6, 3, 1.5)  # mean periods of the steady clocks, beside the fixed ones of 1, 4, 8 and 12
+AVOID, LONGEST = (8, 4), 12  # of blind clocks that look for AVOID more often than for all else
 # Episodes of training and validation: what 10 seeds of all ways in four worlds can have in ten minutes of two cores,
 # told from the CPU time of four runs; 100 validate everywhere in this project.
 EPISODES = (300, 100)
@@ -24,8 +25,9 @@ SPLIT = {"learner", "learner.of", "learner.name", "world", "seed", "curiosity", 
 def commands(names: Sequence[str], worlds: Sequence[str], seeds: int, study: str, cap: float | None,
              look_costs: Sequence[float], more: Sequence[str]) -> list[list[str]]:
     """What to type for the study of ways x worlds, command after command: the ways, free or under a cap of looks a
-    second for all behaviours; clocks of any mean period, by which equal looks are compared; and the robot that is
-    curious, where Q-learning is asked for. ``look_costs``: e_nb of eq 10, UoE, the reading's own if empty."""
+    second for all behaviours; clocks of any mean period, by which equal looks are compared; clocks as blind that give
+    AVOID more looks than others, by which it shows what is won by that alone; and the robot that is curious, where
+    Q-learning is asked for. ``look_costs``: e_nb of eq 10, UoE, the robot's own if empty."""
     playing = [name for name in names if name != BETWEEN]
     own = {word.partition("=")[0] for word in more}
     rest = [f"world={','.join(worlds)}", f"seed=0-{seeds - 1}" if seeds > 1 else "seed=0", f"study={study}",
@@ -40,6 +42,9 @@ def commands(names: Sequence[str], worlds: Sequence[str], seeds: int, study: str
                 ["learner=capped", f"learner.of={','.join(playing)}", f"learner.looks_per_s={cap:g}"])
     found = [[*learners, *rest],
              ["learner=steady", f"learner.period={','.join(f'{period:g}' for period in PERIODS)}", *rest]]
+    if cap is None and "behaviours" not in own:
+        found.append(["learner=fixed", f"learner.period={LONGEST}",
+                      f"+learner.periods.avoid={','.join(map(str, AVOID))}", *rest])
     if "q_learning" in playing and "curiosity" not in own and cap is None:
         found.append(["learner=q_learning", *(word for word in rest if word != "curiosity=none"), "curiosity=litman"])
     return found
@@ -66,8 +71,8 @@ def world_rows(study: Study, made: Mapping[str, Any]) -> list[Row]:
     by_run, settings, rows = dict(iter(behaviours.groupby("run"))), settings_of(study), []
     for run, mine in episodes.groupby("run"):
         looks, cycles = by_run[run], float(mine["cycles"].sum())
-        config = study.config(str(run))
-        rows.append(Row(place_of(config), name_of(config, settings.get(str(run), {})), f"seed {study.seed(str(run))}",
+        config, apart = study.config(str(run)), settings.get(str(run), {})
+        rows.append(Row(place_of(config, apart), name_of(config, apart), f"seed {study.seed(str(run))}",
                         float(looks["activations"].sum()) / cycles / looks["behaviour"].nunique(),
                         min(1.0, max(0.0, 1.0 - float(mine["survival"].mean()))),
                         {"deaths": float((mine["death"] != "none").mean()), "safety": float(mine["safety_mean"].mean()),
@@ -83,22 +88,26 @@ def settings_of(study: Study) -> dict[str, dict[str, Any]]:
     return {run.name: dict(conditions[run.condition].settings) for run in study.file.runs}
 
 
-def place_of(config: Mapping[str, Any]) -> str:
-    """A world, and the simulator unless it is planar."""
+def place_of(config: Mapping[str, Any], apart: Mapping[str, Any]) -> str:
+    """A world, the simulator unless it is planar, and settings beside the learner's that were swept: another price of a
+    look is another place."""
     simulator = config["simulator"]["name"]
-    return f"world {config['world']['name']}{'' if simulator == 'planar' else f' ({simulator})'}"
+    more = [f"{key.rpartition('.')[2]}={value}" for key, value in apart.items()
+            if key not in SPLIT and not key.startswith("learner.") and value is not None]
+    return ", ".join([f"world {config['world']['name']}{'' if simulator == 'planar' else f' ({simulator})'}", *more])
 
 
 def name_of(config: Mapping[str, Any], apart: Mapping[str, Any]) -> str:
     """What a way is called: its learner, the model of curiosity if it has one, and what else sets it apart."""
-    node = config["learner"]
+    node, curiosity = config["learner"], config["curiosity"]["name"]
     if node["name"] == "steady":
         return f"{STEADY}{node['period']:g})"
+    if node["name"] == "fixed":
+        return " ".join([f"fixed_{node['period']}", *(f"{b}={p}" for b, p in (node.get("periods") or {}).items())])
     inner = node.get("of", node["name"]) if node["name"] == "capped" else node["name"]
     name = str(inner["name"] if isinstance(inner, Mapping) else inner)
-    curiosity = config["curiosity"]["name"]
-    more = [f"{key.rpartition('.')[2]}={value}" for key, value in apart.items() if key not in SPLIT
-            and value is not None and not (key == "learner.period" and name.startswith("fixed"))]
+    more = [f"{key.rpartition('.')[2]}={value}" for key, value in apart.items()
+            if key not in SPLIT and key.startswith("learner.") and value is not None]
     return " ".join([name if curiosity == "none" else f"{name}+{curiosity}", *more])
 
 

@@ -4,6 +4,7 @@
     python docs/results/make.py cr_vs_ncr controls      some of them
     python docs/results/make.py search                  the search for a reading in which the paper is true, an hour
     python docs/results/make.py toys                    the ways on their papers' toys, minutes
+    python docs/results/make.py arena --logs FOLDER     the arena; FOLDER holds logs of real robots (docs/logs.md)
     python docs/results/make.py --keep                  go on where it was interrupted
     python docs/results/make.py --page                  no runs: the page from the tables that are here
     python docs/results/make.py --short --outputs DIR --to DIR   does it work? Minutes, numbers mean nothing
@@ -26,7 +27,9 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-import contrasts  # noqa: E402  a folder of scripts, no package
+import arena_page  # noqa: E402  a folder of scripts, no package
+import arena_study  # noqa: E402
+import contrasts  # noqa: E402
 import own_tables  # noqa: E402
 import page  # noqa: E402
 import toys  # noqa: E402
@@ -43,14 +46,15 @@ def main() -> int:
     """Entry point; the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="STUDY", help=f"of {', '.join(BY_NAME)} (all), "
-                        "audit, search, toys")
+                        "audit, search, toys, arena")
+    parser.add_argument("--logs", type=Path, default=Path("logs"), help="where the arena's logs are (logs)")
     parser.add_argument("--outputs", type=Path, default=Path("outputs"), help="where runs are kept (outputs)")
     parser.add_argument("--to", type=Path, default=HERE, help="where tables, figures and page go (beside this script)")
     parser.add_argument("--keep", action="store_true", help="keep what is complete already in the outputs")
     parser.add_argument("--short", action="store_true", help="two seeds of a few short episodes; give --to, too")
     parser.add_argument("--page", action="store_true", help="make no run, write the page alone")
     a = parser.parse_args()
-    unknown = sorted(set(a.names) - {*BY_NAME, truth.SEARCH, truth.AUDIT, toys.TOYS})
+    unknown = sorted(set(a.names) - {*BY_NAME, truth.SEARCH, truth.AUDIT, toys.TOYS, arena_study.NAME})
     if unknown or (a.short and a.to == HERE):
         parser.error(f"there is no study {', '.join(unknown)}" if unknown else "--short needs --to, not these results")
     for study in () if a.page else STUDIES:
@@ -70,6 +74,10 @@ def main() -> int:
         toys.make(a.to, a.short)
     elif a.page:
         toys.write_page(a.to)
+    if not a.page and arena_study.NAME in a.names and \
+            not arena_study.make(a.outputs, a.to, a.logs, a.keep, a.short):
+        print("the arena was not made: nothing of it was copied; --keep goes on", file=sys.stderr)
+        return 1
     write_pages(a.to)
     return 0
 
@@ -136,6 +144,8 @@ def made_with(study: Study, loaded: Any, minutes: float | None) -> dict[str, Any
 def write_pages(folder: Path) -> None:
     """README.md of the folder, and where that is this one, what the project's own README says of the results."""
     (folder / "README.md").write_text(page.page(folder))
+    if text := arena_page.page(folder):
+        (folder / arena_study.NAME / "README.md").write_text(text)
     if folder == HERE:
         readme = ROOT / "README.md"
         readme.write_text(page.readme(readme.read_text(), folder))

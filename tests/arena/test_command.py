@@ -7,11 +7,14 @@ import sys
 
 import pytest
 
+from attnlab import registry
 from attnlab.arena import board
 from attnlab.arena.__main__ import main
 from attnlab.arena.ways import BETWEEN
 from attnlab.arena.worlds import PERIODS
 from attnlab.errors import ConfigError
+from attnlab.learners.fixed import NoLearner
+from attnlab.registry import register
 from tests.arena.drives import logged
 
 
@@ -39,6 +42,47 @@ def test_the_command_makes_a_page_that_repeats_itself(tmp_path, monkeypatch, cap
     assert main([*arguments, "--out", "two", "--add", str(mine)]) == 0
     assert "| theirs |" in (tmp_path / "two" / "arena.md").read_text()
     assert "| theirs |" not in first[1].decode()
+
+
+def test_a_learner_of_ones_own_joins_by_its_name(tmp_path, monkeypatch):
+    """It stands in the table and on the board with its settings, and is judged as the others are."""
+    @register("learner", "ones_own")
+    class OnesOwn(NoLearner):
+        """Looks again after the longest period, whatever it sees."""
+
+        def decide(self, state, exploration, draw):
+            return self.actions - 1
+    monkeypatch.chdir(tmp_path)
+    try:
+        assert main(["--log", logged(tmp_path), "--ways", "fixed_12,ones_own", "--seeds", "1", "--out", "o"]) == 0
+    finally:
+        del registry.parts["learner", "ones_own"]
+    rows = {name: [r for r in board.read_board(tmp_path / "o" / "leaderboard.jsonl") if r.way == name]
+            for name in ("fixed_12", "ones_own")}
+    assert [(r.looks, r.harm) for r in rows["ones_own"]] == [(r.looks, r.harm) for r in rows["fixed_12"]]
+    assert rows["ones_own"][0].made["settings"]["name"] == "ones_own"
+
+
+def test_prices_of_learning_are_a_sweep(tmp_path, monkeypatch):
+    """Who learns is there at each price, who does not only once; a price changes what is learned."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["--log", logged(tmp_path), "--ways", "fixed_4,q_learning", "--seeds", "1", "--train-prices", "0.01,5",
+                 "--out", "o"]) == 0
+    looks: dict[str, float] = {}
+    for row in board.read_board(tmp_path / "o" / "leaderboard.jsonl"):
+        looks[row.way] = looks.get(row.way, 0.0) + row.looks
+    assert set(looks) == {"fixed_4", "q_learning", "q_learning price=0.01", "q_learning price=5", "(knows the future)"}
+    assert looks["q_learning price=0.01"] > looks["q_learning price=5"]
+
+
+def test_a_cap_holds_for_everybody(tmp_path, monkeypatch):
+    """Two looks a second are a fifth of the cycles of a tenth of a second; each block's first is free."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["--log", logged(tmp_path), "--ways", "always_on,q_learning", "--seeds", "1", "--cap", "2",
+                 "--out", "o"]) == 0
+    rows = board.read_board(tmp_path / "o" / "leaderboard.jsonl")
+    assert all(row.looks <= 0.2 + 2 / 112 for row in rows)
+    assert max(row.looks for row in rows) > 0.15
 
 
 @pytest.mark.parametrize(("arguments", "problem"), [
@@ -78,12 +122,12 @@ def test_ways_in_a_world_and_a_clock_carried_to_a_log(tmp_path):
     assert done.returncode == 0, done.stderr
     rows = board.read_board(tmp_path / "w" / "leaderboard.jsonl")
     steady = [f"(steady {period:g})" for period in PERIODS]
-    ways = ["fixed_4", "q_learning", "q_learning+litman", *steady]
+    ways = ["fixed_4", "q_learning", "q_learning+litman", "fixed_12 avoid=8", "fixed_12 avoid=4", *steady]
     assert {r.place for r in rows} == {"world wandering"}
     assert {(r.way, r.unit) for r in rows} == {(w, f"seed {s}") for w in ways for s in (0, 1)}
     assert all(r.made["code"]["hash"] and r.made["study"] == "arena_worlds" for r in rows)
     page = (tmp_path / "w" / "index.html").read_text()
-    assert page.count('class="look b2"') == 3  # of three ways that compete, each of three behaviours
+    assert page.count('class="look b2"') == 5  # of five ways that compete, each of three behaviours
     assert all(0 < r.looks < 1 and 0 <= r.harm <= 1 and r.detail["safety"] >= 0 for r in rows)
     assert next(r for r in rows if r.way == "fixed_4").looks == pytest.approx(0.25, abs=0.01)
     learned = next((tmp_path / "outputs" / "arena_worlds").glob("q_learning*"))
