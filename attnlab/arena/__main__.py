@@ -23,7 +23,7 @@ from typing import Any
 
 from attnlab.arena import worlds
 from attnlab.arena.asked import checked, parsed, places_of
-from attnlab.arena.board import merged, read_board, write_board
+from attnlab.arena.board import merged, read_board, short, write_board
 from attnlab.arena.drive import Drive, Task, read_drive, read_only
 from attnlab.arena.page import page
 from attnlab.arena.places import Trial, carried_rows, deciders, fixed_curve, future_rows, log_rows
@@ -35,7 +35,6 @@ from attnlab.console import guarded
 from attnlab.loading import load_all
 from attnlab.logs.command import settings_of
 from attnlab.logs.file import Log
-from attnlab.results.load import load
 from attnlab.tables.code import code, package_hash
 from attnlab.tables.files import write_bytes
 
@@ -71,7 +70,7 @@ def main(argv: Sequence[str]) -> int:
     told: dict[str, Any] = {"command": shlex.join(["python", "-m", "attnlab.arena", *argv]),
                             "code": {**code(), "hash": package_hash(("arena", "logs"))}}
     added = [row for file in given.add for row in read_board(file)]
-    studies = [load(given.study)] if given.study else []
+    studies = [worlds.opened(given.study)] if given.study else []
     drives = [read_drive(Log(file, settings_of(given.settings))) for file in given.log]
     read = [read_only(Log(file, settings_of(given.settings))) for file in given.read]
     carried = [row for drive in drives for run in given.carry for row in carried_rows(drive, run, task, told)]
@@ -80,7 +79,7 @@ def main(argv: Sequence[str]) -> int:
         for typed in worlds.commands(names, where, given.seeds, given.name, given.cap, given.look_cost,
                                      given.overrides):
             folder = swept(typed)
-        studies.append(load(folder))
+        studies.append(worlds.opened(folder))
     trials = [trial for drive in drives for trial in trials_of(drive, names, task, given)]
     rows = [*log_rows(trials, told), *carried,
             *(row for drive in drives for row in future_rows(drive, task, told))]
@@ -95,7 +94,7 @@ def main(argv: Sequence[str]) -> int:
         rows += worlds.world_rows(study, {**told, "study": study.name})
         strips |= world_strips(study)
         missing += worlds.told(study)
-    rows = merged(rows, added)
+    rows = merged([short(row) for row in rows], [short(row) for row in added])
     curves = {drive.name: fixed_curve(drive, task) for drive in drives}
     found = {place: standings([row for row in rows if row.place == place], curves.get(place))
              for place in dict.fromkeys(row.place for row in rows)}

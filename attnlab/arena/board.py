@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -34,18 +34,17 @@ class Row:
 def write_board(rows: Iterable[Row], path: Path) -> None:
     """All rows, sorted, a line each."""
     ordered = sorted(rows, key=lambda row: (row.place, row.way, row.unit))
-    write_bytes(path, "".join(json.dumps({"format": FORMAT, **_short(row)}, sort_keys=True) + "\n" for row in ordered)
+    write_bytes(path, "".join(json.dumps({"format": FORMAT, **asdict(row)}, sort_keys=True) + "\n" for row in ordered)
                 .encode())
 
 
-def _short(row: Row) -> dict[str, Any]:
-    """As plain data; nine digits of a number are enough."""
-    return {**asdict(row), "looks": short(row.looks), "harm": short(row.harm),
-            "detail": {key: short(value) for key, value in row.detail.items()}}
+def short(row: Row) -> Row:
+    """With nine digits of each number: so many are kept in a file, and all that is said is said of these."""
+    return replace(row, looks=_nine(row.looks), harm=_nine(row.harm),
+                   detail={key: _nine(value) for key, value in row.detail.items()})
 
 
-def short(x: float) -> float:
-    """To nine digits."""
+def _nine(x: float) -> float:
     return float(f"{x:.9g}")
 
 
@@ -77,7 +76,7 @@ def merged(rows: Sequence[Row], added: Sequence[Row]) -> list[Row]:
         mine = known.get((row.place, row.way, row.unit))
         if mine is None:
             found.append(row)
-        elif (short(mine.looks), short(mine.harm)) != (short(row.looks), short(row.harm)):
+        elif (mine.looks, mine.harm) != (row.looks, row.harm):
             raise ConfigError("--add", f"'{row.way}' in {row.place} ({row.unit}) is there already, with other numbers",
                               "Give it another name")
     return found

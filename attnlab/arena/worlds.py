@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from attnlab.arena.board import Row
@@ -61,13 +62,25 @@ def checked(names: Sequence[str], worlds: Sequence[str], more: Sequence[str]) ->
             composed([f"learner={name}", "simulator=planar"])
 
 
+def opened(path: Path) -> Study:
+    """The study of a folder. Raises ConfigError if there is none, or nothing of it is complete."""
+    from attnlab.results.load import load
+    try:
+        study = load(path)
+    except ConfigError as cause:
+        raise ConfigError("--study", str(cause)) from None
+    if not study.complete:
+        raise ConfigError("--study", f"{path} holds no complete run", "Name a study: outputs/STUDY")
+    return study
+
+
 def world_rows(study: Study, made: Mapping[str, Any]) -> list[Row]:
     """A row a run: looks a cycle and behaviour, lost survival (1 - its mean), from validation episodes."""
     episodes, behaviours = study.episodes, study.behaviours
     episodes = episodes[episodes["phase"] == "validation"]
     behaviours = behaviours[behaviours["phase"] == "validation"]
     if episodes.empty:
-        raise ConfigError("--study", f"{study.path} holds no validation episode")
+        raise ConfigError("--study", f"{study.path} holds no validation episode", "validation_episodes=100")
     by_run, settings, rows = dict(iter(behaviours.groupby("run"))), settings_of(study), []
     for run, mine in episodes.groupby("run"):
         looks, cycles = by_run[run], float(mine["cycles"].sum())
@@ -102,8 +115,8 @@ def name_of(config: Mapping[str, Any], apart: Mapping[str, Any]) -> str:
     node, curiosity = config["learner"], config["curiosity"]["name"]
     if node["name"] == "steady":
         return f"{STEADY}{node['period']:g})"
-    if node["name"] == "fixed":
-        return " ".join([f"fixed_{node['period']}", *(f"{b}={p}" for b, p in (node.get("periods") or {}).items())])
+    if isinstance(node.get("periods"), Mapping) and str(node["name"]).startswith("fixed"):  # presets have its settings
+        return " ".join([f"fixed_{node['period']}", *(f"{b}={p}" for b, p in node["periods"].items())])
     inner = node.get("of", node["name"]) if node["name"] == "capped" else node["name"]
     name = str(inner["name"] if isinstance(inner, Mapping) else inner)
     more = [f"{key.rpartition('.')[2]}={value}" for key, value in apart.items()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -74,7 +75,7 @@ def what(rows: Sequence[Row], made: dict[str, Any], worlds: Sequence[str], logs:
     train, validate = made["episodes"]
     engine = "all compiled" if made["engines"] == ["compiled"] else f"engines: {', '.join(made['engines'])}"
     took = (f" It takes {made['cpu_s'] / 120:.1f} minutes of two cores ({made['cpu_s']} s of processor time, compiling "
-            "included).") if "cpu_s" in made else ""
+            f"included{', in several commands' if made.get('in_parts') else ''}).") if "cpu_s" in made else ""
     return (f"{ways} ways to decide when to look in {len(worlds)} worlds ({seeds} seeds, {train} training and "
             f"{validate} validation episodes, planar, {made['runs']} of {made['asked_for']} runs, {engine}), {on_logs} "
             f"on {len(logs)} logs of real robots (8 blocks, learned on one half and judged on the other). Every way "
@@ -91,7 +92,7 @@ def first(folder: Path, rows: Sequence[Row], places: Sequence[str]) -> str:
         row = next(row for row in competing(rows, place) if ranks[place, row["way"]] == "1")
         said.append(f"{row['way']} in {short(place)} ({hundred(row['looks'])} looks in 100 cycles, harm "
                     f"{spread(row, 'harm')} %)")
-    return f"At a price of {PRICE} a look the best score has {listed(said)}."
+    return f"At a price of {PRICE} a look the best score is that of {listed(said)}."
 
 
 def short(place: str) -> str:
@@ -121,9 +122,9 @@ def clear(rows: Sequence[Row], places: Sequence[str], unit: str) -> str:
 
 def fronts(rows: Sequence[Row], places: Sequence[str]) -> str:
     """Who is on the front of looks and harm, for sure."""
-    sure = [{row["way"] for row in competing(rows, place) if float(row["on_front"]) >= SURE} for place in places]
-    return (f"On the front of looks and harm in at least {100 * SURE:.0f} % of resamples, in all {len(places)}: "
-            f"{listed(sorted(set.intersection(*sure)))}.")
+    sure = Counter(row["way"] for place in places for row in competing(rows, place) if float(row["on_front"]) >= SURE)
+    each = [f"{way} in {n} of {len(places)}" for way, n in sorted(sure.items(), key=lambda item: (-item[1], item[0]))]
+    return f"On the front of looks and harm in at least {100 * SURE:.0f} % of resamples: {listed(each)}."
 
 
 def blind(rows: Sequence[Row], places: Sequence[str]) -> str:

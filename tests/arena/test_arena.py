@@ -176,7 +176,7 @@ def test_ranks_change_with_the_price():
 
 def test_a_leaderboard_goes_to_a_file_and_back(tmp_path):
     rows = small_board()
-    board.write_board(rows, tmp_path / "b.jsonl")
+    board.write_board(map(board.short, rows), tmp_path / "b.jsonl")
     found = {(r.way, r.unit): (r.place, r.looks, r.harm) for r in board.read_board(tmp_path / "b.jsonl")}
     assert found == {(r.way, r.unit): (r.place, pytest.approx(r.looks), pytest.approx(r.harm)) for r in rows}
     theirs = [row("mine", "b0", 0.3, 0.1), rows[0]]

@@ -51,6 +51,7 @@ def config(learner, curiosity="none", simulator="planar"):
     ({"name": "q_learning", "alpha": 0.1}, "none", {"learner.alpha": 0.1}, "q_learning alpha=0.1"),
     ({"name": "steady", "period": 9.0}, "none", {"learner.period": 9.0}, f"{STEADY}9)"),
     ({"name": "fixed", "period": 4, "periods": {}}, "none", {"learner.period": 4}, "fixed_4"),
+    ({"name": "fixed_8", "period": 8, "periods": {}}, "none", {"learner": "fixed_8", "learner.period": 8}, "fixed_8"),
     ({"name": "fixed", "period": 12, "periods": {"avoid": 8}}, "none", {}, "fixed_12 avoid=8"),
     ({"name": "capped", "of": "tempo_rl", "looks_per_s": 4.0}, "none", {"learner.of": "tempo_rl"}, "tempo_rl"),
     ({"name": "capped", "of": {"name": "amrl"}}, "none", {"learner.looks_per_s": 2}, "amrl looks_per_s=2")])
