@@ -76,7 +76,8 @@ function plot(parent, place, rows) {
     make(svg, "text", percent(tick).replace(".0", ""), { x: left - 4, y: y(tick) + 4, "text-anchor": "end" }, SVG);
   }
   const along = kept => rows.filter(kept).sort((a, b) => a.looks[0] - b.looks[0]).map(row => `${x(row.looks[0])} ${y(row.harm[0])}`);
-  for (const [kept, kind] of [[steady, "steady"], [row => row.front, "line"]]) {
+  const uniform = row => steady(row) || (rows.some(steady) && /^(always_on|fixed_\d+)$/.test(row.way));
+  for (const [kept, kind] of [[uniform, "steady"], [row => row.front, "line"]]) {
     const points = along(kept);
     if (points.length) make(svg, "path", undefined, { d: `M${points.join("L")}`, class: kind }, SVG);
   }
@@ -91,7 +92,7 @@ function plot(parent, place, rows) {
 }
 
 function label(svg, text, cx, cy, taken, width, ground) {  // where it covers no other, as near as there is room
-  const w = 6.2 * text.length, free = ([a, b]) => a >= 2 && a + w <= width && b >= 22 && b <= ground - 2 &&
+  const w = 6.2 * text.length, free = ([a, b]) => a >= 48 && a + w <= width && b >= 22 && b <= ground - 2 &&
     !taken.some(([p, q, v]) => a < p + v && p < a + w && Math.abs(b - q) < 11);
   const places = [6, 18, 30, 44, 60, 78, 98].flatMap(d => [[cx + 7, cy - d], [cx - 7 - w, cy - d], [cx + 7, cy + d + 4], [cx - 7 - w, cy + d + 4]]);
   const [a, b] = places.find(free) ?? [cx + 7, cy - 6];

@@ -202,7 +202,8 @@ def papers(folder: Path, worlds: Sequence[str]) -> str:
               for (claims, claim, title), of in by_claim.items()]
     grid = "\n".join(f"| {' | '.join(line)} |" for line in lines)
     return (f"## What their papers say, asked of this robot\n\n{grid}\n\nClaims files in `conf/claims/`. \"Direction "
-            "only\": the direction is clear, and these claims name no number.")
+            "only\": the direction is clear, and these claims name no number. What came of the ways on the toys of "
+            "their papers: [toys](../toys/README.md).")
 
 
 def grid(rows: Sequence[Row], place: str) -> str:

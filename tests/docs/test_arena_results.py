@@ -11,7 +11,7 @@ import pytest
 
 from attnlab.arena.board import read_board
 from attnlab.arena.summary import standings
-from attnlab.arena.words import HEADS, ranks_csv, standings_csv
+from attnlab.arena.words import ranks_csv, standings_csv
 
 RESULTS = Path(__file__).resolve().parents[2] / "docs" / "results"
 HERE = RESULTS / "arena"
@@ -58,15 +58,11 @@ def test_every_number_of_the_page_is_from_a_table(arena_page):
 
 
 def test_the_standings_of_worlds_are_those_of_the_leaderboard(board):
-    """Made anew from the rows, with verdicts and resamples; nine digits of a row are kept."""
+    """Made anew from the rows, with verdicts and resamples, to the last digit."""
     worlds = {place: standings(rows) for place, rows in board.items() if place.startswith("world ")}
-    anew = list(csv.DictReader(standings_csv(worlds).decode().splitlines()))
-    kept = [row for row in rows_of("standings.csv") if row["place"] in worlds]
-    assert len(anew) == len(kept) > 4 * WAYS
-    for one, other in zip(anew, kept, strict=True):
-        for head in HEADS:
-            if one[head] != other[head]:
-                assert float(one[head]) == pytest.approx(float(other[head]), rel=1e-4, abs=1e-6), (one["way"], head)
+    anew = [line for line in standings_csv(worlds).decode().splitlines() if line.startswith("world ")]
+    assert anew == [line for line in (HERE / "standings.csv").read_text().splitlines() if line.startswith("world ")]
+    assert len(anew) > 4 * WAYS
     ranks = [line for line in ranks_csv(worlds).decode().splitlines() if line.startswith("world ")]
     assert ranks == [line for line in (HERE / "ranks.csv").read_text().splitlines() if line.startswith("world ")]
 
