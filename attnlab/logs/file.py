@@ -127,6 +127,7 @@ class _Unpacked(io.RawIOBase):
 
     def __init__(self, path: Path, ledger: Ledger):
         self._file, self._ledger, self._done = gzip.open(path), ledger, 0  # noqa: SIM115  closed with this
+        self._broken = False
 
     def readable(self) -> bool:
         return True
@@ -134,8 +135,9 @@ class _Unpacked(io.RawIOBase):
     def readinto(self, buffer: bytearray | memoryview) -> int:  # type: ignore[override]
         data = b""
         try:
-            data = self._file.read1(len(buffer))
+            data = b"" if self._broken else self._file.read1(len(buffer))
         except (EOFError, gzip.BadGzipFile, zlib.error):
+            self._broken = True
             self._ledger.skip("gzip file that is cut off or damaged: what came before it was read",
                               f"after {self._done} bytes")
         buffer[:len(data)] = data

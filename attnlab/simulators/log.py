@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import lru_cache
@@ -156,6 +157,9 @@ def rows_of(params: Logged.Params, dt_s: float) -> Rows:
         settings = tuple(getattr(params, name) for name in OF_THE_LOG)
         return _read(str(Path(params.file).expanduser()), found, params.format, settings, params.sonar_range_m,
                      params.hearing, dt_s if params.cycle == "time" else None, params.poses)
+    except OSError as cause:
+        raise ConfigError("simulator.file", f"{params.file} cannot be read, or its cycles not be kept in "
+                          f"{tempfile.gettempdir()} ({cause.strerror})", "TMPDIR names another folder") from None
     except ConfigError as error:
         where = {"log": "simulator.file"}.get(error.setting, error.setting)
         raise ConfigError(where if where.startswith("simulator.") else f"simulator.{where}", error.problem,

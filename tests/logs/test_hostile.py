@@ -68,7 +68,7 @@ TABLE = {
     "a broken beam in a rawlog": (raw(made.scan_object(1.0, (1, 2, 3), valid=[1, 0, 1])), 1,
                                   f"1 x beam without a valid range (first: byte {len(raw())})"),
     "gzip cut off": (gzip.compress(csv(*(f"{i},1,2,3" for i in range(30000))))[:40000], None,
-                     "gzip file that is cut off or damaged: what came before it was read"),
+                     "1 x gzip file that is cut off or damaged: what came before it was read"),
     "ranges that are no metres": (csv("1,1500,900,inf", "2,1500,900,nan"), 2,
                                   "no beam ever heard anything within 5 m: are its ranges metres?"),
     "an infinite beam": (csv("1,inf,-inf,7", "2,1,1,1"), 2, "1 x beam without a valid range (first: line 2)"),

@@ -1,5 +1,7 @@
 """simulator=log: each cycle shows what the log has there, to those who only look."""
 
+import errno
+import json
 import tracemalloc
 from math import hypot, isnan
 from pathlib import Path
@@ -12,7 +14,7 @@ from attnlab.config import run_key
 from attnlab.errors import ConfigError
 from attnlab.logs.base import LogSettings
 from attnlab.logs.file import Log
-from attnlab.logs.rows import Rows
+from attnlab.logs.rows import ROW, Rows
 from attnlab.logs.sonars import sectors
 from attnlab.replay.__main__ import main as replay
 from attnlab.replay.again import live_again
@@ -205,6 +207,14 @@ def test_what_is_no_log_of_every_cycle_is_refused(tmp_path):
     assert RunPlan(on(str(far), poses=False)).recorded
 
 
+def test_a_disk_with_no_room_left(tmp_path, monkeypatch):
+    def full(**_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    monkeypatch.setattr("attnlab.logs.rows.tempfile.TemporaryFile", full)
+    with pytest.raises(ConfigError, match=r"simulator.file: .*log.csv cannot be read, or .*No space left"):
+        RunPlan(on(written(tmp_path, [value + 0.01 for value in NEAR])))
+
+
 def test_a_long_log_takes_no_memory(tmp_path):
     """Thrice as long takes no more, but for the gaps of which the middle one is a cycle's length."""
     peaks = []
@@ -217,6 +227,7 @@ def test_a_long_log_takes_no_memory(tmp_path):
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < peaks[0] + 150_000
+    assert f"({ROW.size} bytes each)" in (Path(__file__).parents[2] / "docs" / "logs.md").read_text()
 
 
 def test_a_run_is_kept_made_again_and_replayed(tmp_path):
@@ -256,3 +267,20 @@ def test_watch_earns_by_hand(sigma, period, reward):
     """u = (sigma - 0.4) / 0.6."""
     watch = make("behaviours", "watch")
     assert watch.reward(sigma, period) == pytest.approx(reward) and watch.sigma_high == 1.0
+
+
+def test_what_is_typed(complain, tmp_path):
+    """Refused in a line, with nothing written; or a study, which says what of the log was skipped."""
+    file = written(tmp_path, times=[i / 10 + 2 * (i >= 40) for i in range(80)])
+    log = ["simulator=log", f"simulator.file={file}", "simulator.blocks=2"]
+    code, err, there = complain(*log)
+    assert (code, there) == (2, ["log.csv"]) and len(err.splitlines()) == 1
+    assert "behaviours.avoid: acts, and in simulator=log all goes as it was recorded" in err
+    code, err, there = complain(*log, "behaviours=[watch]", "engine=compiled")
+    assert (code, there) == (2, ["log.csv"]) and "engine=compiled: cannot be: simulator=log runs as Python" in err
+    code, err, there = complain(*log, "behaviours=[watch]", "simulator.held_out=odd,even", "train_episodes=2",
+                                "validation_episodes=1", "cluster=serial", "picture=false", "report=false")
+    assert code == 0 and "attnlab: log.csv: 1 x hole of more than 1 s (first: line 42)" in err
+    about = [json.loads((tmp_path / name).read_text()) for name in there if name.endswith("run.json")]
+    assert {one["status"] for one in about} == {"complete"} and {one["engine"] for one in about} == {"python"}
+    assert [one["skipped"] for one in about] == [["log.csv: 1 x hole of more than 1 s (first: line 42)"]] * 2
