@@ -197,3 +197,31 @@ def test_each_option_is_used_by_a_test():
                    if not any(f'"{flag}' in text or page in text for text in starting)}
         assert starting, f"no test starts {module}"
     assert not unused
+
+
+ALONE = {  # what takes minutes, or a log -> the test that types it with less
+    "attnlab.search": "tests/search/test_search.py", "attnlab.certify": "tests/simulators/test_agreement.py",
+    "attnlab.calibrate": "tests/claims/test_calibrate.py", "attnlab.arena": "tests/arena/test_arena.py",
+    "attnlab.logs": "tests/logs/test_formats.py", "attnlab.fig1": "tests/worlds/test_give.py",
+    "attnlab.new": "tests/plugins/test_new.py", "attnlab.toys": "tests/toys/test_command.py"}
+
+
+@pytest.mark.long
+def test_what_the_readme_tells_to_type(attnlab, tmp_path):
+    """Its commands on a study and a run, on two studies of two runs of a few short episodes."""
+    few = ("seed=0-1", "simulator=planar", "train_episodes=2", "validation_episodes=2", "max_cycles=80",
+           "picture=false", "report=false")
+    for study in ("STUDY", "STUDY2"):
+        assert attnlab("+experiment=cr_vs_ncr", *few, f"study={study}").returncode == 0
+    run = next((tmp_path / "outputs" / "STUDY").glob("*/run.json")).parent.name
+    typed = [words(c.line)[2:] for c in READERS if c.page == "README.md"]
+    assert len(typed) > 20 and {module for module, *_ in typed} > set(ALONE)
+    for module, *arguments in typed:
+        if module in ALONE:
+            assert (ROOT / ALONE[module]).is_file()
+            continue
+        named = [re.sub("(STUDY|first_look)/RUN", f"STUDY/{run}", a).replace("cr_vs_ncr", "STUDY") for a in arguments]
+        named = ["film.gif" if word.endswith(".mp4") else word for word in named]  # .mp4 is an extra
+        done = attnlab(*named, module=module, timeout=600)
+        assert done.returncode == 0, f"{module} {named}: {done.stdout[-300:]}{done.stderr[-800:]}"
+    assert (tmp_path / "outputs" / "index.html").is_file() and (tmp_path / "film.gif").is_file()

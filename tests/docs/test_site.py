@@ -79,12 +79,3 @@ def test_what_the_first_pages_tell_to_type(attnlab, tmp_path):
         done = attnlab(*arguments, module=module)
         assert done.returncode == 0, f"{line}: {done.stderr[-500:]}"
     assert (tmp_path / "both.html").is_file() and (tmp_path / "film.gif").is_file()
-
-
-@pytest.mark.long
-def test_the_python_of_the_first_page(attnlab, tmp_path):
-    assert attnlab("+experiment=cr_vs_ncr", "seed=0", "study=first_look", "train_episodes=2", "validation_episodes=1",
-                   "max_cycles=60", "simulator=planar", "picture=false", "report=false").returncode == 0
-    [block] = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "index.md").read_text(), re.S)
-    done = subprocess.run([sys.executable, "-c", block], cwd=tmp_path, capture_output=True, text=True, timeout=60)
-    assert done.returncode == 0 and "validation" in done.stdout, done.stderr
