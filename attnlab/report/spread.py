@@ -40,7 +40,7 @@ def headline(found: Multiverse, claims: Claims) -> str:
             said = "; ".join(text for _, text in sorted(groups[words], key=lambda one: one[0]))
             name = f"holds {words}" if words else "untestable in every reading"
             items.append(f'<li><span class="chip {css}">{name}</span> {said}.</li>')
-    edges = ", ".join(f"{words} {least:.0%} or more" for least, words, _ in GROUPS[:-1])
+    edges = ", ".join(f"{words} {100 * least:.0f} % or more" for least, words, _ in GROUPS[:-1])
     return (f'<h2 id="verdicts">Verdicts</h2>\n<p>{told_of(claims, len(found.claims))}, judged in each of '
             f"{len(found.names)} readings by the rules of {escape(claims.path.name)}. No reading is singled out: what "
             f"stands here is in how many of those that can test a claim its direction holds ({edges}).</p>\n"
