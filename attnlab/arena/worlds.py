@@ -55,8 +55,10 @@ def checked(names: Sequence[str], worlds: Sequence[str], more: Sequence[str]) ->
     """Raise ConfigError for a world, a way or a setting that is none, before anything runs."""
     from attnlab.cli.calls import composed
     single = [f"{name}={value.partition(',')[0]}" for name, _, value in (word.partition("=") for word in more)]
+    if not any(word.startswith("simulator=") for word in single):
+        single.append("simulator=planar")
     for world in worlds:
-        composed([f"world={world}", "simulator=planar", *single])
+        composed([f"world={world}", *single])
     for name in names:
         if name != BETWEEN:
             composed([f"learner={name}", "simulator=planar"])

@@ -4,7 +4,7 @@ import pytest
 
 from attnlab.arena.summary import STEADY
 from attnlab.arena.ways import DEFAULT
-from attnlab.arena.worlds import PERIODS, commands, name_of, place_of
+from attnlab.arena.worlds import PERIODS, checked, commands, name_of, place_of
 from attnlab.testing import run
 
 
@@ -32,6 +32,11 @@ def test_what_is_given_goes_before_what_is_usual():
     found = typed(more=["train_episodes=5", "simulator=pybullet", "curiosity=litman"], seeds=1, names=["fixed_4"])
     assert len(found) == 3 and all(of[-3:] == ["train_episodes=5", "simulator=pybullet", "curiosity=litman"] and
                                    "seed=0" in of and "simulator=planar" not in of for of in found)
+
+
+@pytest.mark.parametrize("more", [["simulator=pybullet", "cluster=serial"], ["train_episodes=5", "fresh=true"]])
+def test_what_can_be_is_let_through(more):
+    checked(["fixed_4"], ["wandering"], more)
 
 
 def test_a_cap_and_the_cost_of_a_look():
