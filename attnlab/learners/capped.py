@@ -28,7 +28,10 @@ class Looks:
 
     def together(self) -> int:
         """Of all."""
-        return sum(self.taken)
+        together = 0
+        for taken in self.taken:
+            together += taken
+        return together
 
 
 @register("learner", "capped")

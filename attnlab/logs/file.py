@@ -70,7 +70,7 @@ class Log:
                     ledger.skip(reason, raw.place)
                     continue
                 ranges = heard(raw)
-                missing = sum(map(isnan, ranges))
+                missing = sum(r != r for r in ranges)  # those that are NaN
                 if missing == len(ranges):
                     ledger.skip("scan without a valid beam", raw.place)
                     continue

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 import struct
 from collections.abc import Iterator
-from math import atan2, hypot, inf, isfinite, nan, pi
+from math import atan2, inf, isfinite, nan, pi
 from typing import IO
 
+from attnlab.arithmetic import length
 from attnlab.logs.base import Beams, Ledger, LogSettings, Pose, Raw
 from attnlab.pioneer import arc
 
@@ -121,6 +122,6 @@ def _increment(data: bytes, at: int, version: int) -> tuple[Pose | None, int]:
 
 def _compose(pose: Pose, step: Pose) -> Pose:
     """A pose after an increment given in its own frame."""
-    distance = hypot(step[0], step[1])
+    distance = length(step[0], step[1])
     x, y, _ = arc(pose[0], pose[1], pose[2] + atan2(step[1], step[0]), distance, 0.0, 1.0)
     return x, y, (pose[2] + step[2] + pi) % (2 * pi) - pi

@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 VERSIONS = ("3.11", "3.12", "3.13")
 GOLDEN = json.loads(short_runs.GOLDEN.read_text())
 RUN_BY = ("arithmetic", "equations", "streams", "worlds", "needs", "exploration", "fusion", "simulators", "learners",
-          "behaviours", "curiosity", "penalty", "attention", "cycle", "probes", "robot", "kernels")
+          "behaviours", "curiosity", "penalty", "attention", "cycle", "probes", "robot", "kernels", "logs", "pioneer")
 MOVED = {"hypot", "dist", "lgamma", "fsum", "sumprod"}  # their bits depend on the Python, or differ when compiled
 
 
