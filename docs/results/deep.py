@@ -16,11 +16,14 @@ def text(folder: Path) -> str:
         return found.MISSING.format(DEEP)
     said = []
     for network in NETWORKS:
-        rows = [(rival, found.contrast(folder, DEEP, found.VALID, network, rival)) for rival in RIVALS]
-        than = [f"{found.side(row)} than {rival} ({found.against(row)})" for rival, row in rows if row]
+        than: dict[str, list[str]] = {}
+        for rival in RIVALS:
+            if row := found.contrast(folder, DEEP, found.VALID, network, rival):
+                than.setdefault(found.side(row), []).append(f"{rival} ({found.against(row)})")
         if than:
+            sides = "; ".join(f"{side} than {', '.join(rivals)}" for side, rivals in than.items())
             said.append(f"{network} looks {looks(folder, network)} times an episode and survives in validation "
-                        f"{', '.join(than)}.")
+                        f"{sides}.")
     if not said:
         return "The networks were left out."
     others = ", ".join(f"{rival} {looks(folder, rival)}" for rival in RIVALS)

@@ -66,7 +66,7 @@ def main() -> int:
             if minutes is None:
                 print(f"{study.name} is not complete: nothing of it was copied; --keep goes on", file=sys.stderr)
                 return 1
-            collect(study, a.outputs / study.name, a.to / study.name, minutes)
+            collect(study, a.outputs / study.name, a.to / study.name, None if a.keep else minutes)
     if not a.page and not truth.make(a.names, a.outputs, a.to):
         print("the search was stopped: nothing of it was copied; the same command goes on", file=sys.stderr)
         return 1
