@@ -23,11 +23,16 @@ def slim(svg: str) -> str:
 
 
 def palette(png: bytes) -> bytes:
-    """The same picture in at most 256 colours, none off by more than can be seen: about a third of the size."""
+    """The same picture in at most 256 colours, none off by more than can be seen, its ground (the colour of the first
+    pixel) by nothing: about a third of the size."""
     from PIL import Image
     sink = io.BytesIO()
     picture = Image.open(io.BytesIO(png)).convert("RGB")
-    picture.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(sink, format="PNG", optimize=True)
+    small = picture.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    colours, ground = small.getpalette() or [], 3 * int(small.getpixel((0, 0)))  # type: ignore[arg-type]
+    colours[ground:ground + 3] = picture.getpixel((0, 0))  # type: ignore[assignment]
+    small.putpalette(colours)
+    small.save(sink, format="PNG", optimize=True)
     return sink.getvalue()
 
 

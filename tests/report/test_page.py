@@ -2,13 +2,16 @@
 
 import base64
 import hashlib
+import io
 import os
 import re
 import shutil
 from html.parser import HTMLParser
 
+import numpy as np
 import pandas as pd
 import pytest
+from PIL import Image
 
 from attnlab.figures.base import FigureContext, gallery, make
 from attnlab.figures.panels import panels
@@ -294,6 +297,18 @@ claims:
         "reproduced" not in page[page.index("<main>"):page.index("<script>")]
     assert ",safer,Safer,direction only," in (tmp_path / "out" / "verdicts.csv").read_text()
     assert "The paper says" not in page and "<b>Here:</b>" in page
+
+
+def test_small_pngs_look_the_same(built):
+    """Every colour within what can be seen, the ground as it was, in half the bytes at most."""
+    from attnlab.report.slim import palette
+    for name in ("policies", "attention_raster", "fig11_paths"):
+        png = (built / "figures" / f"{name}.png").read_bytes()
+        one, two = (np.asarray(Image.open(io.BytesIO(of)).convert("RGB")).astype(int) for of in (png, palette(png)))
+        off = np.abs(one - two).max(axis=2)
+        assert one.shape == two.shape and off.max() < 48 and np.quantile(off, 0.99) < 16
+        assert two[0, 0].tolist() == [255, 255, 255] and (off[one.min(axis=2) == 255] == 0).all()
+        assert len(palette(png)) < 0.5 * len(png)
 
 
 def test_pictures_are_slim_and_the_same(built):
