@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
-from typing import Any
+from typing import Any, cast
 
 from attnlab import registry
 from attnlab.errors import ConfigError
@@ -40,9 +40,8 @@ class Capped(Learner):
     ``looks_per_s``, and what was not used is kept. A period is granted as the other one wants it if, when it has
     elapsed, no more looks will have been taken than the time since the episode's start allows (each behaviour's first
     one is free, and looks that others have been granted but not yet taken are not known); otherwise the shortest longer
-    one that keeps to it, or the longest there is. The other learns from what was granted.
-
-    n behaviours cannot keep fewer than n looks in the longest period: they look rarely. Draws what the other draws.
+    one that keeps to it, or the longest there is. The other learns from what was granted. n behaviours cannot keep
+    fewer than n looks in the longest period: they look rarely. Draws what the other draws.
     """
 
     @dataclass
@@ -53,10 +52,9 @@ class Capped(Learner):
     params: Params
 
     def __init__(self, params: Params, context: LearnerContext):
-        self.inner: Learner = _made(params.of, context)  # before the rest: its tables are ours
+        inner = self.inner = _made(params.of, context)  # before the rest: its tables are ours
         super().__init__(params, context)
-        self.learns, self.on_policy = self.inner.learns, self.inner.on_policy
-        self.needs_between = self.inner.needs_between
+        self.learns, self.on_policy, self.needs_between = inner.learns, inner.on_policy, inner.needs_between
         self._a_cycle = params.looks_per_s * context.reading.dt_s
         self._rising = sorted(range(self.actions), key=lambda action: context.periods[action])
         self._begun, self._now = False, 0
@@ -95,8 +93,7 @@ class Capped(Learner):
         self._begun = True
         wanted, looks = self.inner.decide(state, exploration, draw), 1 + self._looks.together()
         for action in self._rising:
-            period = periods[action]
-            if period >= periods[wanted] and looks <= self._a_cycle * (self._now + period) + 1e-9:
+            if periods[action] >= periods[wanted] and looks <= self._a_cycle * (self._now + periods[action]) + 1e-9:
                 return action
         return self._rising[-1]
 
@@ -120,5 +117,4 @@ def _made(of: Any, context: LearnerContext) -> Learner:
     if kind is Capped or kind.rehearses():
         raise ConfigError("learner.of", f"{name} cannot be capped")
     node = {**spec.nodes()[name], **(of if isinstance(of, Mapping) else {})}
-    made: Learner = registry.make("learner", node, context, "learner.of")
-    return made
+    return cast("Learner", registry.make("learner", node, context, "learner.of"))
