@@ -26,11 +26,11 @@ def page(folder: Path) -> str:
                     for of in (True, False))
     parts = ["# The arena of attention: what wins where, by how much, how sure",
              "Made by `python docs/results/make.py arena`: every number, and every word that hangs on one, is from the "
-             "tables beside this page.", what(rows, made, worlds, logs)]
+             "tables beside this page.", brief(rows, worlds, logs), what(rows, made, worlds, logs)]
     for title, places, unit in (("In worlds", worlds, "of survival"), ("On logs of real robots", logs, "of cycles")):
         if places:
-            parts.append(f"**{title}.** " + " ".join([
-                first(folder, rows, places), clear(rows, places, unit), fronts(rows, places), blind(rows, places)]))
+            parts.append(f"**{title}.** {first(folder, rows, places)}\n\n" + "\n".join(f"- {said}" for said in (
+                *clear(rows, places, unit), fronts(rows, places), blind(rows, places))))
     parts += [blindly(rows, worlds), curious(rows, worlds), between(rows, logs), unsure(rows, worlds, logs),
               papers(folder, worlds),
               "[The page](index.html) has the fronts, tables that any column sorts, the price of a look on a slider, "
@@ -100,7 +100,23 @@ def short(place: str) -> str:
     return place.removeprefix("world ")
 
 
-def clear(rows: Sequence[Row], places: Sequence[str], unit: str) -> str:
+def brief(rows: Sequence[Row], worlds: Sequence[str], logs: Sequence[str]) -> str:
+    """The answer in three sentences."""
+    verdicts = {(row["place"], row["way"]): row["verdict"] for row in rows}
+    ways = sorted({row["way"] for row in rows})
+
+    def everywhere(places: Sequence[str], word: str) -> list[str]:
+        return [way for way in ways if places and all(verdicts.get((place, way)) == word for place in places)]
+    better, worse = (everywhere(worlds, word) for word in ("better", "worse"))
+    sightless = [way for way in better if way.startswith("fixed")]
+    more = f" ({listed(sightless)} sees nothing: it only looks more often for AVOID than for the rest)" \
+        if sightless else ""
+    return (f"**In short.** Clearly better than a clock of fixed period that looks as often, in all {len(worlds)} "
+            f"worlds: {listed(better)}{more}. Clearly worse in all of them: {listed(worse)}. On each of {len(logs)} "
+            f"logs of real robots, clearly better: {listed(everywhere(logs, 'better'))}.")
+
+
+def clear(rows: Sequence[Row], places: Sequence[str], unit: str) -> list[str]:
     """Who is clearly better and worse than fixed clocks of equal looks, in how many places, by how much."""
     said = []
     for word, gains in (("better", "saves"), ("worse", "loses")):
@@ -117,7 +133,7 @@ def clear(rows: Sequence[Row], places: Sequence[str], unit: str) -> str:
     never = sorted(way for way in held if not any(
         row["verdict"] in ("better", "worse") for place in places for row in competing(rows, place)
         if row["way"] == way))
-    return " ".join([*said, f"Nowhere clear: {listed(never)}."])
+    return [*said, f"Nowhere clear: {listed(never)}."]
 
 
 def fronts(rows: Sequence[Row], places: Sequence[str]) -> str:

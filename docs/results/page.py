@@ -36,7 +36,7 @@ OLD = "**Made under older rules**, and not comparable with what `python docs/res
 def page(folder: Path) -> str:
     """The whole page."""
     sentences = "\n".join(f"{i}. {text}" for i, text in enumerate(found.sentences(folder), 1))
-    parts = [HEAD, sentences, HOW, studies(folder)]
+    parts = [HEAD, sentences, HOW, elsewhere(folder), studies(folder)]
     for study in STUDIES[:3]:
         parts += main_study(folder, study)
     parts += controls(folder)
@@ -58,6 +58,14 @@ def grid(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A Markdown table, the first column to the left."""
     lines = [list(heads), ["---", *["---:"] * (len(heads) - 1)], *map(list, rows)]
     return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+
+
+def elsewhere(folder: Path) -> str:
+    """Results with a page of their own."""
+    pages = {"arena": "every published way to decide when to look, in worlds and on logs of real robots",
+             "toys": "the ways on the toys of their own papers"}
+    there = [f"[{name}]({name}/README.md), {what}" for name, what in pages.items() if (folder / name).is_dir()]
+    return f"Beside this page: {'; '.join(there)}." if there else ""
 
 
 def old(folder: Path, study: str) -> str:
