@@ -117,7 +117,7 @@ class RunPlan:
         for attention in agent.attentions:
             if attention.learner.needs_between:
                 raise ConfigError("learner", f"'{attention.learner.name}' asks for the percepts between looks, which a "
-                                  "robot that does not look has not", "python -m attnlab.arena --log FILE gives them")
+                                  "robot that does not look has not", "Only a log can give them: see docs/arena.md")
             for need in attention.behaviour.feels:
                 if need not in agent.body.index:
                     raise ConfigError(f"behaviours.{attention.behaviour.name}", f"nobody brings a need called '{need}'",
