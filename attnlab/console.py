@@ -100,7 +100,8 @@ def undisturbed() -> Iterator[None]:
 
 @contextmanager
 def heard() -> Iterator[None]:
-    """Ctrl-C or SIGTERM is heard at the latest when this block ends: C code that calls Python (LLVM's) may lose it."""
+    """Ctrl-C or SIGTERM is heard at the latest when this block ends: C code that calls Python (LLVM's, an import of
+    numpy) may lose it."""
     came: list[Callable[[], Any]] = []
     handlers = {number: handler for number in (signal.SIGINT, signal.SIGTERM)
                 if callable(handler := signal.getsignal(number))}
@@ -116,6 +117,9 @@ def heard() -> Iterator[None]:
         signal.signal(number, hear)
     try:
         yield
+    except Exception:  # C code may also make another error of it
+        if not came:
+            raise
     finally:
         sys.unraisablehook = hook
         for number, handler in handlers.items():

@@ -9,7 +9,7 @@ from typing import Any
 
 from attnlab import __version__, registry
 from attnlab.cli.argv import ASKS, normalise
-from attnlab.console import guarded
+from attnlab.console import guarded, heard
 from attnlab.errors import ConfigError, describe
 from attnlab.loading import load_all
 from attnlab.paths import conf_dir
@@ -30,7 +30,8 @@ def _main(argv: Sequence[str]) -> int:
     if "--version" in arguments:
         print(f"attnlab {__version__}")
         return 0
-    load_all()
+    with heard():
+        load_all()
     for file, cause in registry.failures.values():
         print(f"attnlab: {file} did not load and is left out: {describe(cause)}", file=sys.stderr)
     return hydra_application(arguments)

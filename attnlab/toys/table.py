@@ -16,6 +16,7 @@ from attnlab.claims.judge import Verdict, judge_roles
 from attnlab.errors import ConfigError
 from attnlab.measures.toys import QUANTITIES, ToyRuns
 from attnlab.paths import conf_dir
+from attnlab.tables.csvs import csv_bytes
 from attnlab.testing.processes import BRIDGE, CHAIN, CLIFF, DISEASE, EVEN_ODD, ZIGZAG
 from attnlab.toys import values
 from attnlab.toys.chains import play_chain, play_chain_clock
@@ -72,13 +73,8 @@ def play(seeds: Sequence[int], jobs: int, short: int = 1) -> Told:
 
 
 def as_csv(told: Told) -> bytes:
-    sink = io.StringIO()
-    writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(HEAD)
-    for (toy, way), seeds in told.items():
-        for seed, of in seeds.items():
-            writer.writerows([toy, way, seed, name, f"{value:.9g}"] for name, value in of.items())
-    return sink.getvalue().encode()
+    return csv_bytes(HEAD, ([toy, way, seed, name, f"{value:.9g}"] for (toy, way), seeds in told.items()
+                            for seed, of in seeds.items() for name, value in of.items()))
 
 
 def read(file: Path) -> Told:

@@ -203,7 +203,7 @@ ALONE = {  # what takes minutes, or a log -> the test that types it with less
     "attnlab.search": "tests/search/test_search.py", "attnlab.certify": "tests/simulators/test_agreement.py",
     "attnlab.calibrate": "tests/claims/test_calibrate.py", "attnlab.arena": "tests/arena/test_arena.py",
     "attnlab.logs": "tests/logs/test_formats.py", "attnlab.fig1": "tests/worlds/test_give.py",
-    "attnlab.new": "tests/plugins/test_new.py", "attnlab.toys": "tests/toys/test_command.py"}
+    "attnlab.new": "tests/plugins/test_new.py", "attnlab.toys": "tests/toys/test_toys_command.py"}
 
 
 @pytest.mark.long

@@ -165,6 +165,7 @@ def test_what_cannot_be_is_one_line():
         env.step([0, 0, 0])
 
 
+@pytest.mark.long
 def test_a_cycle_costs_at_most_twice_the_plain_loop():
     found = decisions.ratios(4, times=3)
     assert max(of for name, of in found.items() if name != "plain_us") < 2.0, found

@@ -155,3 +155,9 @@ def test_the_hash_of_the_code_covers_all_that_numbers_come_from():
             queue += GRAPH.get(module, ())
     assert {room(module) for module in seen} - NUMBERS == {
         "__init__", "callbacks", "errors", "groups", "loading", "paths", "registry"}
+
+
+def test_no_two_files_of_tests_share_a_name():
+    """pytest imports them by it."""
+    names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
+    assert sorted(names) == sorted(set(names))

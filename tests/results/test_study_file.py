@@ -131,7 +131,7 @@ def test_variants_that_grow_are_three_conditions(here, tmp_path):
     assert [c.name for c in study.file.conditions] == ["a", "b", "c"]
     assert list(dict.fromkeys(study.episodes["condition"])) == ["a", "b", "c"]
     rows = [line.split()[0] for line in done.stdout.splitlines() if line.startswith((" a ", " b ", " c "))]
-    assert rows == ["a", "b", "c"]
+    assert rows[:3] == ["a", "b", "c"]  # columns that do not fit beside them are below
 
 
 @pytest.mark.parametrize(("typed", "says"), [

@@ -110,6 +110,22 @@ def test_ctrl_c_that_c_code_loses_is_heard_in_the_end(capsys, interruptible):
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
+def test_ctrl_c_that_became_another_error_is_ctrl_c(interruptible):
+    """numpy's C code turns one that comes while it is imported into an ImportError."""
+    def turn(interrupted):
+        with heard():
+            try:
+                if interrupted:
+                    os.kill(os.getpid(), signal.SIGINT)
+            finally:
+                raise ImportError("could not import datetime")
+    with pytest.raises(KeyboardInterrupt):
+        turn(True)
+    with pytest.raises(ImportError):
+        turn(False)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 @pytest.mark.long
 def test_two_at_once_and_a_cache_of_another_version(tmp_path):
     """Both compile, or one finds what the other wrote; code of another numba is not used, nor is what is no code."""

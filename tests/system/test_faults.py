@@ -142,7 +142,7 @@ BOMB = "a0: &a0 [1,1,1,1,1,1,1,1,1,1]\n" + "".join(
 FILES = {
     "callbacks": ("experiment", "# @package _global_\nhydra: {callbacks: {x: {a: 1}}}\n", "callbacks names code"),
     "target": ("experiment", "# @package _global_\nhydra: {sweeper: {_target_: os.getcwd}}\n", "_target_ names code"),
-    "deep": ("experiment", "# @package _global_\nlearner: {x: [{_target_: os.system}]}\n", "_target_ names code"),
+    "nested": ("experiment", "# @package _global_\nlearner: {x: [{_target_: os.system}]}\n", "_target_ names code"),
     "logging": ("experiment", "# @package _global_\nhydra: {job_logging: {x: {(): os.getcwd}}}\n", "() names"),
     "bomb": ("world", f"part: layout\n{BOMB}", "anchors stand for more than"),
     "itself": ("world", "part: layout\nboxes: &a [*a]\n", "anchors stand for more than")}
