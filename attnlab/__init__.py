@@ -1,6 +1,8 @@
 """attnlab: learn where to look. Adaptive attention and curiosity for behaviour-based robots (Di Nocera et al. 2014)."""
 
+import sys
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -10,6 +12,13 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 __all__ = ["Clock", "__version__", "compose", "load", "plot", "simulate", "sweep", "verdicts"]
+
+if sys.argv[:1] == ["-m"]:  # python -m attnlab...: the line that most often is missing is the one that activates
+    for name in ("numpy", "hydra", "pyarrow", "pandas", "scipy", "seaborn", "rich"):
+        if find_spec(name) is None:
+            print(f"attnlab: {sys.executable} has no {name}. Type: source .venv/bin/activate; if there is no .venv, "
+                  "README.md begins with how to make it", file=sys.stderr)
+            sys.exit(2)
 
 
 def __getattr__(name: str) -> Any:

@@ -177,7 +177,8 @@ def unknown(group: str, name: str, where: str, known: list[str] | None = None) -
         if module.rpartition(".")[2] == name or f"'{name}'" in str(cause):
             return ConfigError(f"{where}={name}", f"{file} did not load: {describe(cause)}", "Mend that file")
     names = known or [option for spec in parts.values() if spec.group == group for option in spec.nodes()]
-    return ConfigError(f"{where}={name}", f"no {group} is called '{name}'", nearest(name, names))
+    return ConfigError(f"{where}={name}", f"no {'behaviour' if group == 'behaviours' else group} is called '{name}'",
+                       nearest(name, names))
 
 
 def build_params(group: str, node: Any, where: str) -> tuple[Spec, Any]:

@@ -9,7 +9,7 @@ from typing import Any
 from attnlab.claims.files import Claims
 from attnlab.results.conditions import Conditions, Runs
 from attnlab.tables.flat import dig, text
-from attnlab.tables.naming import value_of
+from attnlab.tables.naming import is_value, value_of
 
 Combinations = dict[str, dict[str, str]]  # name -> settings by dotted name, as texts
 
@@ -59,8 +59,8 @@ def failed(conditions: Conditions, where: Mapping[str, Any], stratum: Mapping[st
     lost, there = set(), set(conditions.matching(where, stratum)[0].runs)
     for run in study.failed:
         condition = by_name[study.condition(run).name]
-        wanted = {**{name: text(value) for name, value in where.items()}, **stratum}
-        if all(text(value_of(condition.settings, condition.config, name)) == value for name, value in wanted.items()):
+        if all(is_value(name, text(value_of(condition.settings, condition.config, name)), value)
+               for name, value in {**where, **stratum}.items()):
             lost.add(study.seed(run))
     return lost - there
 

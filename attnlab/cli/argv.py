@@ -36,7 +36,8 @@ def normalise(argv: list[str]) -> tuple[list[str], list[str]]:
         elif (argument.startswith("-") and "=" not in argument.split("[")[0]) or argument.startswith("--"):
             name, equals, value = argument.partition("=")
             if name not in FLAGS:
-                raise ConfigError(argument, "no such flag", nearest(name, FLAGS))
+                raise ConfigError(argument, "no such flag", f"A setting stands without dashes: {argument.lstrip('-')}"
+                                  if equals else nearest(name, FLAGS))
             if equals and name in TAKE_VALUES:
                 _check_value(name, value)
             elif equals:

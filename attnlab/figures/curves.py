@@ -65,10 +65,12 @@ def finish(figure: Figure, axes: list[Axes], conditions: Conditions, name: str, 
     """Labels, heading, and, where lines are not ``named`` by their panels, the legend of a figure along training."""
     from matplotlib.ticker import MaxNLocator
     figure.supylabel(unit, fontsize=9.5)
+    places = [(ax, place) for ax in axes if (place := ax.get_subplotspec()) is not None]
+    lowest = {place.colspan.start: ax for ax, place in places}
+    means = f"{' ' if len(lowest) < 4 else chr(10)}(means of {block})" if block > 1 else ""
+    for ax in lowest.values():  # not the figure's own label: a legend below would lie upon it
+        ax.set_xlabel(f"training episodes{means}")
     for ax in axes:
-        place = ax.get_subplotspec()
-        if place is not None and place.is_last_row():  # not the figure's own label: a legend below would lie upon it
-            ax.set_xlabel(f"training episodes (means of {block})" if block > 1 else "training episodes")
         if ax.lines:  # an empty panel has no ticks to speak of
             ax.xaxis.set_major_locator(MaxNLocator(integer=True, nbins="auto", steps=[1, 2, 2.5, 5, 10]))
     if not named:

@@ -103,8 +103,10 @@ def grid(count: int, height_in: float = 3.2, columns: int = 3, **sharing: Any) -
     height = height_in if rows == 1 else min(height_in, 2.7) * rows
     figure, axes = plt.subplots(rows, columns, figsize=(WIDTH_IN, height), squeeze=False, **sharing)
     flat = list(axes.flat)
-    for spare in flat[count:]:
+    for place, spare in enumerate(flat[count:], start=count):
         spare.set_visible(False)
+        if place >= columns:  # the panel above it is the lowest of its column
+            flat[place - columns].tick_params(labelbottom=True)
     return figure, flat[:count]
 
 
@@ -116,8 +118,18 @@ def legend(figure: Figure, axes: list[Axes], title: str = "") -> None:
             entries.setdefault(label, handle)
     if entries:
         where: Any = "outside upper right" if sum(map(len, entries)) + 6 * len(entries) < 60 else "outside lower center"
-        figure.legend(handles=list(entries.values()), labels=list(entries), loc=where, ncol=min(5, len(entries)),
+        figure.legend(handles=list(entries.values()), labels=list(entries), loc=where, ncol=_columns(list(entries)),
                       title=title or None, columnspacing=1.6, handlelength=2.4)
+
+
+def _columns(names: list[str]) -> int:
+    """Columns of a legend with these names: as many as the page has room for, five at most."""
+    room = WIDTH_IN * 72 / 5  # letters of 5 pt; a line and the gaps beside it take nine
+    for count in range(min(5, len(names)), 1, -1):
+        parts = np.array_split([len(name) for name in names], count)  # as matplotlib does, the first columns longest
+        if sum(9 + part.max() for part in parts) <= room:
+            return count
+    return 1
 
 
 def band(ax: Axes, x: np.ndarray, values: np.ndarray, line: Line, label: bool = True, **style: Any) -> None:

@@ -86,7 +86,7 @@ def _ticks(ax: Axes, cycles: pd.DataFrame, colour: dict[int, Shade]) -> None:
     for place, name in enumerate(reversed(names)):
         active = cycles[cycles[f"{name}_active"].astype(bool)]
         for period, group in active.groupby(f"{name}_period"):
-            ax.vlines(group["cycle"], place - 0.4, place + 0.4, color=colour[int(str(period))], lw=0.8)
+            ax.vlines(group["cycle"], place - 0.4, place + 0.4, color=colour[int(float(str(period)))], lw=0.8)
     ax.set_yticks(range(len(names)), [f"{name.upper()}" for name in reversed(names)])
     ax.set_ylim(-0.6, len(names) - 0.4)
     ax.grid(False)

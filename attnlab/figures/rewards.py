@@ -47,7 +47,7 @@ class Rewards(Figure):
                                           for name in whole}, "UoR an episode")
             figure.suptitle(f"Reward, extrinsic part with penalties\n{told}", x=0.01, ha="left", fontsize=9.5)
             return figure
-        columns = len(whole) if len(drawn) > 1 or len(whole) > 4 else 2
+        columns = len(whole) if len(drawn) > 1 else 3 if len(whole) > 4 else 2
         figure, axes = grid(max(1, len(drawn)) * len(whole), 3.4 if len(drawn) > 1 else 5.4, columns, sharex=True)
         for row, panel in enumerate(drawn):
             for name, ax in zip(whole, axes[row * len(whole):], strict=False):

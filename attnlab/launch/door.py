@@ -22,6 +22,7 @@ from attnlab.config import RunSettings, check_path, no_such_setting
 from attnlab.errors import ConfigError, nearest
 from attnlab.groups import GROUPS
 from attnlab.launch.searchpath import searchpath
+from attnlab.paths import PACKAGE
 
 ALLOWED = ("hydra.searchpath", "hydra.verbose", "hydra/job_logging", "hydra/hydra_logging")  # all else is ours
 ELSEWHERE = {  # groups of files that no run is composed of
@@ -168,6 +169,9 @@ class Door:
             override, = self.parser.parse_overrides([argument])
         except HydraException as cause:
             short = argument if len(argument) <= 60 else argument[:57] + "..."
+            if argument.isidentifier() and any((PACKAGE / name).is_file()
+                                               for name in (f"{argument}.py", f"{argument}/__main__.py")):
+                raise ConfigError(short, "is no setting", f"Type: python -m attnlab.{argument}") from None
             raise ConfigError(short, f"cannot be read ({str(cause).splitlines()[0][:100]})",
                               "Write setting=value, and quote special characters: 'study=\"my study\"'") from None
         found: Override = override

@@ -134,7 +134,7 @@ def split(jobs: Sequence[Job], fresh: bool) -> tuple[list[Job], list[Job], dict[
         reason, about = "missing", dict[str, Any]()
         for folder in existing.get(job.key, []):
             status, _, about = state_of(folder, whole=True)
-            reason = status
+            reason = "interrupted" if about.get("interrupted") else status
             if about.get("key") == job.key and about.get("run") in (None, folder.name):  # no copy of it
                 job.folder, job.seen = folder, ended_under(about)
                 if status == "complete" and about.get("schema") != SCHEMA_VERSION:

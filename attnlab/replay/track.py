@@ -12,6 +12,7 @@ from attnlab.replay.again import Lived
 from attnlab.replay.model import body_of, model_of
 from attnlab.replay.seen import COLUMNS, sense_again
 from attnlab.results.old import upgraded
+from attnlab.results.one import no_run
 from attnlab.results.states import read_config, state_of
 from attnlab.robot.plan import RunPlan
 
@@ -46,7 +47,7 @@ def open_run(folder: Path) -> Recorded:
         raise ConfigError(str(folder), "there is no such run", "Name a run: outputs/<study>/<run>")
     status, why, about = state_of(folder)
     if status != "complete":
-        raise ConfigError(str(folder), f"no complete run ({status}: {why})", "Name a run: outputs/<study>/<run>")
+        raise no_run(folder, f"{status}: {why}")
     config = read_config(folder)
     if config is None:
         raise ConfigError(str(folder), "config.yaml is missing or unreadable", "Run it again with fresh=true")

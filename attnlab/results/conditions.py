@@ -15,7 +15,7 @@ from attnlab.errors import ConfigError
 from attnlab.loading import load_all
 from attnlab.results.load import Study
 from attnlab.tables.flat import dig, text
-from attnlab.tables.naming import value_of
+from attnlab.tables.naming import is_value, value_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -121,9 +121,9 @@ class Conditions:
 
     def _fits(self, has: Mapping[str, str], seeds: Mapping[int, str], name: str, value: Any) -> bool:
         if name in has:
-            return has[name] == text(value)
+            return is_value(name, has[name], value)
         config = self.configs[next(iter(seeds.values()))]
-        return text(value_of({}, config, name)) == text(value)
+        return is_value(name, text(value_of({}, config, name)), value)
 
     def name(self, curiosity: str) -> str:
         """What a curiosity is called in figures."""

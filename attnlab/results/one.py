@@ -19,7 +19,7 @@ def no_run(folder: Path, why: str) -> ConfigError:
         why = "there is no such folder"
     elif (folder / FILE).is_file():
         runs = sorted(path.parent for path in folder.glob("*/run.json"))
-        return ConfigError(str(folder), "no complete run (it is a study)", f"One of its runs: {runs[0]}" if runs else
+        return ConfigError(str(folder), "is a study, not a run of one", f"One of its runs: {runs[0]}" if runs else
                            "It has none yet")
     return ConfigError(str(folder), f"no complete run ({why})", "Name a run: outputs/<study>/<run>")
 

@@ -73,6 +73,15 @@ def value_of(settings: Mapping[str, Any], config: Mapping[str, Any], name: str) 
     return value.get("name") if isinstance(value, Mapping) else value
 
 
+def is_value(name: str, has: str, wanted: Any) -> bool:
+    """Does a condition that ``has`` this (the text of :func:`value_of`) have what a claims file asks for? Behaviours
+    stand there as a list, and in any order."""
+    if name == "behaviours":
+        listed = wanted if isinstance(wanted, list) else str(wanted).strip("[]").split(",")
+        return sorted(has.strip("[]").split(",")) == sorted(str(one).strip() for one in listed)
+    return has == text(wanted)
+
+
 def undeclared(values: Sequence[Mapping[str, Any]], configs: Sequence[Mapping[str, Any]]
                ) -> tuple[list[str], list[str]]:
     """(settings that differ between conditions of the same swept settings, a note on each)."""

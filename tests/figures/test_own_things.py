@@ -10,6 +10,7 @@ from attnlab.measures.needs import needs_of, unit_of
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import load
 from attnlab.tables.files import read_json, write_json
+from attnlab.tables.yamls import read_yaml
 from attnlab.testing.build import BOXES, node
 from attnlab.testing.study import conditions, plant
 
@@ -97,3 +98,38 @@ def test_an_own_kind_has_its_colour_and_a_legend(tired):
     assert set(legend) == {"wall", "obstacle", "food", "water", "sofa"}
     assert set(legend.values()) == fills and len(fills) == 5
     assert not plot.paths(conditions()).legends
+
+
+@pytest.fixture(scope="module")
+def restless(tmp_path_factory) -> Conditions:
+    """Robots that rest, and robots of the same curiosity that cannot."""
+    folder = plant(tmp_path_factory.mktemp("studies") / "restless", (0, 1), ("litman",),
+                   behaviours=("avoid", "eat", "drink", "rest"))
+    plant(folder, (2, 3), ("litman",))
+    for file in folder.glob("*/run.json"):
+        names = ",".join(read_yaml(file.with_name("config.yaml").read_text())["behaviours"])
+        write_json(file, {**read_json(file), "swept": {"behaviours": f"[{names}]"}})
+    return Conditions(load(folder))
+
+
+def test_ticks_of_a_behaviour_that_one_robot_lacks(restless):
+    drawn = plot.attention_raster(restless)
+    assert [len(ax.get_yticklabels()) for ax in drawn.axes[::2]] == [4, 3]
+
+
+def test_its_rewards_have_room(restless):
+    drawn = plot.rewards(restless)
+    drawn.draw_without_rendering()
+    page = drawn.get_window_extent()
+    legend = drawn.legends[0].get_window_extent()
+    assert page.x0 <= legend.x0 and legend.x1 <= page.x1
+    labels = [ax.xaxis.label.get_window_extent() for ax in drawn.axes if ax.get_xlabel()]
+    assert len(labels) == 3 and not any(a.overlaps(b) for i, a in enumerate(labels) for b in labels[:i])
+
+
+@pytest.mark.parametrize("wanted", [["avoid", "eat", "drink", "rest"], ["rest", "drink", "eat", "avoid"],
+                                    "[avoid,eat,drink,rest]"])
+def test_a_role_by_its_behaviours(restless, wanted):
+    runs, note = restless.matching({"behaviours": wanted}, {})
+    assert sorted(runs.runs) == [0, 1] and not note and "rest" in runs.config(0)["behaviours"]
+    assert not restless.matching({"behaviours": ["avoid", "eat"]}, {})[0].runs

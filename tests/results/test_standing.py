@@ -70,7 +70,7 @@ def test_its_table_fits_a_narrow_terminal(study, monkeypatch):
 
 def test_of_a_study_a_run_is_named(study):
     error = no_run(study, "")
-    assert error.problem == "no complete run (it is a study)" and "-seed0-" in error.hint
+    assert error.problem == "is a study, not a run of one" and "-seed0-" in error.hint
     assert "there is no such folder" in no_run(study / "nowhere", "").problem
 
 
