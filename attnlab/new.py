@@ -77,7 +77,10 @@ def how_to_use(group: str, name: str) -> str:
     if kind.in_report:
         return {"figure": "draw it    python -m attnlab.report STUDY"}.get(
             group, f"name it    measure: {{name: {name}}}, in a claims file")
-    return f"run it     python -m attnlab {kind.typed(name)}"
+    run = f"run it     python -m attnlab {kind.typed(name)}"
+    if group == "behaviours":
+        return f"{run}\ncompare    python -m attnlab 'behaviours=[avoid,eat,drink],[avoid,eat,drink,{name}]' seed=0-5"
+    return run
 
 
 def main(argv: Sequence[str]) -> int:
@@ -95,7 +98,7 @@ def main(argv: Sequence[str]) -> int:
               f"python -m pytest {given.name}/tests\nuse it      python -m attnlab +behaviours={given.name}")
         return 0
     (test,) = others
-    print(f"{part}   the part\n{test}   its tests\n")
+    print(f"{part!s:<{len(str(test))}}   the part\n{test}   its tests, which you change with it\n")
     print(f"test it    python -m pytest {test}\nsee it     python -m attnlab.parts {given.name}\n"
           f"{how_to_use(group, given.name)}")
     return 0

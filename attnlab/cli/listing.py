@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import re
 import sys
 import textwrap
 import typing
@@ -11,6 +12,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from attnlab import registry
+from attnlab.console import table_width
 from attnlab.errors import ConfigError, describe, nearest
 from attnlab.groups import GROUPS
 from attnlab.loading import config_folders
@@ -39,6 +41,15 @@ def summary(cls: type, width: int = 100) -> str:
     alone = sum(spec.cls.__module__ == cls.__module__ for spec in registry.parts.values()) == 1
     text = (alone and sys.modules[cls.__module__].__doc__) or inspect.getdoc(cls) or "(no docstring)"
     return textwrap.shorten(text.strip().split("\n\n")[0], width, placeholder=" ...")
+
+
+def reflowed(text: str) -> str:
+    """A docstring for a terminal: paragraphs as wide as it is, those with lines set apart (lists, code, tables) as they
+    stand, references by their names."""
+    text = re.sub(r":\w+:`~?([^`]+)`", r"\1", text)
+    return "\n\n".join(part if any(line[:1] in " -*|" for line in part.split("\n")) or part.endswith("::") else
+                       textwrap.fill(part, table_width(), break_long_words=False, break_on_hyphens=False)
+                       for part in text.split("\n\n"))
 
 
 def named_configs() -> dict[tuple[str, str], Path]:
@@ -83,7 +94,8 @@ def parameters(params: type, prefix: str = "") -> Iterable[str]:
         unit = f" {meta['unit']}" if meta.get("unit") else ""
         limits = f" ({', '.join(filter(None, bounds))})" if any(bounds) else ""
         yield f"  {prefix}{field.name}: {kind_of(hints[field.name])} = {value}{unit}{limits}"
-        yield f"      {meta.get('doc') or '(undocumented)'}"
+        yield textwrap.fill(meta.get("doc") or "(undocumented)", table_width(), initial_indent=" " * 6,
+                            subsequent_indent=" " * 6)
 
 
 def about(spec: registry.Spec, option: str) -> str:
@@ -92,14 +104,13 @@ def about(spec: registry.Spec, option: str) -> str:
     lines = [f"{spec.group}={option}   {source(spec)}: {short(spec.origin)}"]
     if option != spec.name:
         lines.append(f"  a preset of {spec.name}: " + ", ".join(f"{k}={v}" for k, v in spec.presets[option].items()))
-    lines += ["", inspect.getdoc(spec.cls) or "(no docstring)", ""]
+    lines += ["", reflowed(inspect.getdoc(spec.cls) or "(no docstring)"), ""]
     if hasattr(spec.cls, "interpreted"):
-        lines += [f"Engine: Python alone; {spec.cls.interpreted}." if spec.cls.interpreted else
-                  "Engine: compiles (engine=compiled; what does not runs as Python, and run.json says why).", ""]
+        lines += [reflowed(f"Engine: Python alone; {spec.cls.interpreted}." if spec.cls.interpreted else "Engine: "
+                           "compiles (engine=compiled; what does not runs as Python, and run.json says why)."), ""]
     if dataclasses.fields(spec.params):
-        lines += [f"Parameters (set with {spec.group}.<name>=<value>"
-                  + (f", for {spec.group}: {kind.node(option)}.<name>=<value>)" if kind.chosen == "list" else ")"),
-                  *parameters(spec.params)]
+        node = kind.node(option) if kind.chosen == "list" else spec.group
+        lines += [f"Parameters (set with {node}.<name>=<value>)", *parameters(spec.params)]
     else:
         lines.append("It takes no parameters." + (f" Used as {kind.typed(option)}." if kind.setting else ""))
     if spec.presets and option == spec.name:

@@ -35,12 +35,12 @@ class Pane {
     this.raster(strips);
     const needy = Math.max(...track.needs.map(need => need.deadly ?? Math.max(...need.v)), 1);
     const rich = Math.max(track.full, ...track.energy);
-    this.strip(strips, `Needs, 0 to ${number(needy)} UoE`, track.needs.map((need, i) => [need.name, need.v, `s${i % 3}`]),
+    this.strip(strips, `Needs, 0 to ${number(needy)} UoE`, track.needs.map((need, i) => [need.name, need.v, `s${i % 5}`]),
       0, needy, track.needs.length > 0);
     this.strip(strips, `Energy, 0 to ${number(rich)} UoE; dashes: well-being`, [["energy", track.energy, "s2"]], 0, rich,
       true, [track.well]);
     this.strip(strips, "Wanting and liking, 0 to 1", [["wanting", track.wanting, "w"],
-      ...this.names.map((name, i) => [`liking, ${name}`, this.held(name, 6), `l${i % 3}`])], 0, 1, true);
+      ...this.names.map((name, i) => [`liking, ${name}`, this.held(name, 6), `l${i % 5}`])], 0, 1, true);
     this.strip(strips, "Safety, 0 to 1", [["where it is", track.safety, "s1"], ["as AVOID saw it", track.held, "l0"]], 0, 1,
       track.safety.some(v => v !== null) || track.held.some(v => v !== null));
     html("p", "The row of each table that the last look used: the value of every period, the chosen one marked", this.box,

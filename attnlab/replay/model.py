@@ -72,7 +72,8 @@ def _cannot(plan: RunPlan, phase: str, agent: Agent) -> str:
     if phase != "validation":
         return "a training episode learns, and the page does not"
     if type(agent.simulator) is not Planar:
-        return f"it lives in simulator={agent.simulator.name}, and the page has the planar one alone"
+        return f"it lives in simulator={agent.simulator.name}, and the page has the planar one alone (a run with " \
+               "simulator=planar has a what-if)"
     if not isinstance(plan.exploration("validation"), Greedy):
         return "its choices are drawn at random"
     if type(agent.fusion) is not MinSpeedSumTurn or type(agent.body) is not Body:

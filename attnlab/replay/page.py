@@ -36,7 +36,7 @@ def said(track: Mapping[str, Any]) -> str:
     """An episode in one sentence."""
     end = "the robot lived" if track["death"] == "none" else f"the robot died: {track['death']}"
     eaten = Counter(need for _, need in track["meals"])
-    fed = ", ".join(f"{need} satisfied {times} times" for need, times in sorted(eaten.items()))
+    fed = ", ".join(f"{need} satisfied {times} time{'s' * (times != 1)}" for need, times in sorted(eaten.items()))
     looks = ", ".join(f"{name} {len(rows)}" for name, rows in track["looks"].items())
     return (f"{track['n']} of {track['most']} cycles ({track['n'] * track['dt']:.0f} s), {end}; looks: {looks}"
             + (f"; {fed}" if fed else "") + ".")

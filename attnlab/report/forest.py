@@ -36,8 +36,13 @@ def rows_of(study: Study) -> list[Row]:
     for run, name in named.items():
         if run in means.index:
             found.setdefault(name, {})[study.seed(run)] = float(means[run])
-    rows = [Row(name, seeds, mean_interval(list(seeds.values()))) for name, seeds in found.items()]
+    rows = [Row(name, seeds, _of_shares(mean_interval(list(seeds.values())))) for name, seeds in found.items()]
     return sorted(rows, key=lambda row: -row.value[0])
+
+
+def _of_shares(value: Interval) -> Interval:
+    """An interval of percentages, cut where a percentage ends; nan stays."""
+    return value._replace(low=float(np.clip(value.low, 0.0, 100.0)), high=float(np.clip(value.high, 0.0, 100.0)))
 
 
 def first_screen(study: Study, marks: Mapping[str, str] | None = None) -> str:
@@ -49,7 +54,8 @@ def first_screen(study: Study, marks: Mapping[str, str] | None = None) -> str:
     more = f" The first {MOST} of {len(rows)}; all are in conditions.csv." if len(rows) > MOST else ""
     return ('<h2 id="found">What was found</h2>\n' + "".join(f"<p>{escape(text)}</p>" for text in sentences(rows))
             + picture(rows[:MOST], marks) + "<p class=small>Cycles lived of those there could be, in validation "
-            f"episodes: mean over seeds with its 95 % t interval, best first; small dots are seeds.{more}</p>")
+            "episodes: mean over seeds with its 95 % t interval, cut at 0 and 100 %, best first; small dots are seeds."
+            f"{more}</p>")
 
 
 def sentences(rows: Sequence[Row]) -> list[str]:

@@ -105,8 +105,11 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "", other
         return '<h2 id="verdicts">Verdicts</h2><p>There are no complete runs to judge by.</p>'
     if nothing_testable(verdicts):
         (reason, count), = Counter(v.reason for v in verdicts).most_common(1)
-        return (f'<h2 id="verdicts">Verdicts</h2><p>None of the {len(verdicts)} claims of <cite>{escape(claims.title)}'
-                f"</cite> can be tested here. {count} of them: {escape(reason)}. All reasons are in verdicts.csv.</p>")
+        many, why = len(verdicts), escape(reason)
+        none = f"None of the {many} claims of" if many > 1 else "The one claim of"
+        told = f"{count} of them: {why}. All reasons are in verdicts.csv" if many > 1 else why[:1].upper() + why[1:]
+        return (f'<h2 id="verdicts">Verdicts</h2><p>{none} <cite>{escape(claims.title)}</cite> '
+                f"can{'not' * (many == 1)} be tested here. {told}.</p>")
     counts = Counter(v.verdict for v in verdicts)
     bar = "".join(f'<span class="{v.css}" style="flex: {counts[v]}">{counts[v]}</span>' for v in Finding
                   if counts[v])

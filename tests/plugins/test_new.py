@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
+from attnlab.cli.listing import find
 from attnlab.groups import GROUPS
 from attnlab.new import groups
 
@@ -47,3 +48,13 @@ def test_a_package_of_ones_own(attnlab, tmp_path):
     assert tested.returncode == 0, tested.stdout
     project = tomllib.loads((tmp_path / "siesta" / "pyproject.toml").read_text())["project"]
     assert project["entry-points"]["attnlab.plugins"] == {"siesta": "siesta"}
+
+
+def test_a_part_is_explained_within_the_terminal(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "60")
+    for part in ("behaviours/avoid", "behaviours/drink", "exploration/softmax", "world/random"):
+        text = find(part)
+        assert max(len(line) for line in text.splitlines()[1:] if " = " not in line) <= 60, part
+        assert ":class:" not in text
+    assert "(set with behaviours.drink.<name>=<value>)" in find("behaviours/drink")
+    assert "(set with world.<name>=<value>)" in find("world/random")

@@ -49,3 +49,10 @@ def test_the_page_has_every_condition_best_first(tmp_path):
     episodes = found.episodes[found.episodes["phase"] == "validation"]
     assert rows[0].value.value == pytest.approx(
         100 * episodes[episodes["condition"] == rows[0].name].groupby("seed")["survival"].mean().mean())
+
+
+def test_no_interval_reaches_beyond_what_a_percentage_can_be(tmp_path):
+    for seed in range(2):
+        write_run(tmp_path / "study", "none", seed, validation=1)
+    row, = rows_of(load(tmp_path / "study"))
+    assert mean_interval(list(row.seeds.values())).high > 100.0 == row.value.high

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 
 import pytest
 
 from attnlab.cli.main import main
+from attnlab.paths import PACKAGE
 from attnlab.results import load
 
 SHORT = ("train_episodes=2", "validation_episodes=1", "max_cycles=60", "picture=false", "report=false",
@@ -34,3 +36,12 @@ def test_planar_does_not(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main([*SHORT, "simulator=planar"]) == 0
     assert len(load("main").complete) == 1
+
+
+@pytest.mark.parametrize("module", ["attnlab", "attnlab.replay"])
+def test_a_python_without_packages_says_what_to_type(module):
+    """The other terminal, in which nobody typed source .venv/bin/activate."""
+    done = subprocess.run([sys.executable, "-S", "-m", module], cwd=PACKAGE.parent, capture_output=True, text=True,
+                          check=False)
+    assert done.returncode == 2 and done.stdout == "" and len(done.stderr.splitlines()) == 1
+    assert "has no numpy. Type: source .venv/bin/activate" in done.stderr
