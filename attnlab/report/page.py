@@ -99,6 +99,11 @@ def told_of(claims: Claims, count: int) -> str:
     return f"{number} of <cite>{escape(claims.title)}</cite>{source}"
 
 
+def _typed(value: object) -> str:
+    """A setting's value as one types it."""
+    return f"[{','.join(map(str, value))}]" if isinstance(value, list) else str(value)
+
+
 def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "", others: int = 0) -> str:
     """How many claims fared how, and which; ``where``: under which settings, ``others``: of so many besides."""
     if not verdicts:
@@ -126,7 +131,7 @@ def headline(claims: Claims, verdicts: Sequence[Verdict], where: str = "", other
     holds = sum(counts[v] for v in Finding if v.holds)
     chosen = f" for <b>{escape(where)}</b>, the first of {others + 1} combinations of settings in which a claim can " \
              "be tested (all of them: below)" if where else ""
-    who = "; ".join(f"{role.label} is {', '.join(f'{name}={value}' for name, value in role.where.items())}"
+    who = "; ".join(f"{role.label} is {', '.join(f'{name}={_typed(value)}' for name, value in role.where.items())}"
                     for role in claims.roles.values())
     met = counts[Finding.REPRODUCED]
     exact = "" if own else f", {met} of which {'is' if met == 1 else 'are'} reproduced, number and all"

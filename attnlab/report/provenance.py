@@ -70,8 +70,9 @@ def _small(conditions: Conditions) -> list[str]:
     train = max((config.get("train_episodes") or 0 for config in conditions.configs.values()), default=0)
     if not conditions.configs or (seeds >= 6 and train >= 250):
         return []
+    few = ", and with fewer than 6 seeds no p can fall below 0.05" if seeds < 6 else ""
     return [f"a small study ({seeds} seed{'s' * (seeds != 1)} a condition, {train} training episodes; the paper trains "
-            "for 500): verdicts say little, and with fewer than 6 seeds no p can fall below 0.05"]
+            f"for 500): verdicts say little{few}"]
 
 
 def _uneven(conditions: Conditions) -> list[str]:

@@ -5,8 +5,11 @@ import pytest
 from matplotlib.colors import to_hex
 
 from attnlab import plot
+from attnlab.claims.files import load_claims
+from attnlab.claims.judge import judge
 from attnlab.figures.base import FigureContext, make
 from attnlab.measures.needs import needs_of, unit_of
+from attnlab.report.page import headline
 from attnlab.results.conditions import Conditions
 from attnlab.results.load import load
 from attnlab.tables.files import read_json, write_json
@@ -103,9 +106,9 @@ def test_an_own_kind_has_its_colour_and_a_legend(tired):
 @pytest.fixture(scope="module")
 def restless(tmp_path_factory) -> Conditions:
     """Robots that rest, and robots of the same curiosity that cannot."""
-    folder = plant(tmp_path_factory.mktemp("studies") / "restless", (0, 1), ("litman",),
+    folder = plant(tmp_path_factory.mktemp("studies") / "restless", (0, 1, 2), ("litman",),
                    behaviours=("avoid", "eat", "drink", "rest"))
-    plant(folder, (2, 3), ("litman",))
+    plant(folder, (3, 4, 5), ("litman",))
     for file in folder.glob("*/run.json"):
         names = ",".join(read_yaml(file.with_name("config.yaml").read_text())["behaviours"])
         write_json(file, {**read_json(file), "swept": {"behaviours": f"[{names}]"}})
@@ -131,5 +134,32 @@ def test_its_rewards_have_room(restless):
                                     "[avoid,eat,drink,rest]"])
 def test_a_role_by_its_behaviours(restless, wanted):
     runs, note = restless.matching({"behaviours": wanted}, {})
-    assert sorted(runs.runs) == [0, 1] and not note and "rest" in runs.config(0)["behaviours"]
+    assert sorted(runs.runs) == [0, 1, 2] and not note and "rest" in runs.config(0)["behaviours"]
     assert not restless.matching({"behaviours": ["avoid", "eat"]}, {})[0].runs
+
+
+@pytest.mark.parametrize(("tests", "told"), [
+    (["test: level, role: treatment, direction: higher, reference: 1",
+      "test: level, role: control, direction: lower, reference: 99"],
+     "calm is behaviours=[rest,avoid,eat,drink]; "),
+    (["test: paired, direction: higher"], "<p>The one claim of <cite>Rest</cite> cannot be tested here. ")])
+def test_the_page_tells_who_rests(restless, tmp_path, tests, told):
+    parts = "".join(f"""
+      - {{measure: {{name: survival, phase: validation}}, {test}, unit: "%"}}""" for test in tests)
+    file = tmp_path / "rest.yaml"
+    file.write_text(f"""
+title: Rest
+own: true
+roles:
+  treatment: {{label: calm, where: {{behaviours: [rest, avoid, eat, drink]}}}}
+  control: {{label: restless, where: {{behaviours: [avoid, eat, drink]}}}}
+rules: {{confidence: 0.95, least_seeds: 3}}
+claims:
+  one:
+    title: Calm robots live
+    where: page 1
+    says: They survive.
+    parts:{parts}
+""")
+    claims = load_claims(str(file))
+    assert told in headline(claims, judge(claims, restless))

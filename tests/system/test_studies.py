@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from attnlab.cli.main import main
 from attnlab.results import load
 from attnlab.tables.schema import SCHEMA, TABLES
 
@@ -315,3 +316,13 @@ def test_other_behaviours_in_one_study_keep_their_columns(here):
     assert sorted(names) == ["avoid", "drink", "eat"]
     two = next(line for line in lines[lines.index(head):] if "[avoid,drink]" in line)
     assert two.split()[-3:][names.index("eat")] == "-"
+
+
+def test_what_was_stopped_did_not_fail(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    typed = [*SHORT, "cluster=serial"]
+    assert main(typed) == 0
+    file = next(Path("outputs/main").glob("*/run.json"))
+    file.write_text(json.dumps({**json.loads(file.read_text()), "status": "failed", "interrupted": True}))
+    assert main(typed) == 0
+    assert "no run is complete (1 interrupted)" in capsys.readouterr().out
