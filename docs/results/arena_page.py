@@ -74,8 +74,7 @@ def what(rows: Sequence[Row], made: dict[str, Any], worlds: Sequence[str], logs:
     seeds = max(int(row["units"]) for row in rows if row["place"] in worlds)
     train, validate = made["episodes"]
     engine = "all compiled" if made["engines"] == ["compiled"] else f"engines: {', '.join(made['engines'])}"
-    took = (f" It takes {made['cpu_s'] / 120:.1f} minutes of two cores ({made['cpu_s']} s of processor time, compiling "
-            f"included{', in several commands' if made.get('in_parts') else ''}).") if "cpu_s" in made else ""
+    took = f" On two cores it took {made['wall_s'] / 60:.1f} minutes, compiling included." if "wall_s" in made else ""
     return (f"{ways} ways to decide when to look in {len(worlds)} worlds ({seeds} seeds, {train} training and "
             f"{validate} validation episodes, planar, {made['runs']} of {made['asked_for']} runs, {engine}), {on_logs} "
             f"on {len(logs)} logs of real robots (8 blocks, learned on one half and judged on the other). Every way "

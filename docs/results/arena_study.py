@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import subprocess
 import sys
@@ -25,7 +24,7 @@ PRICE = "0.5"
 
 def make(outputs: Path, to: Path, logs: Path, keep: bool, short: bool) -> bool:
     """Everything by the arena's command, then its tables into ``to``. False if it failed."""
-    made, began, cpu = outputs / NAME, time.monotonic(), sum(os.times()[:4])
+    made, began = outputs / NAME, time.monotonic()
     typed = ["--worlds", "all", *(word for log in LOGS for word in ("--log", str(logs / log))), "--read",
              str(logs / READ), "--price", PRICE, "--name", STUDY, "--out", str(made)]
     typed += ["--seeds", "2", "--epochs", "1"] if short else []
@@ -33,7 +32,7 @@ def make(outputs: Path, to: Path, logs: Path, keep: bool, short: bool) -> bool:
     more += [*([f"outputs={outputs}"] if str(outputs) != "outputs" else []), *([] if keep else ["fresh=true"])]
     if subprocess.run([sys.executable, "-m", "attnlab.arena", *typed, *more], check=False).returncode:
         return False
-    spent = {"wall_s": round(time.monotonic() - began), "cpu_s": round(sum(os.times()[:4]) - cpu)}
+    spent = {"wall_s": round(time.monotonic() - began)}
     collect(made, outputs / STUDY, to / NAME, {} if keep else spent)
     return True
 
