@@ -33,7 +33,7 @@ def page(folder: Path) -> str:
                 *clear(rows, places, unit), fronts(rows, places), blind(rows, places))))
     parts += [blindly(rows, worlds), curious(rows, worlds), between(rows, logs), unsure(rows, worlds, logs),
               papers(folder, worlds),
-              "[The page](index.html) has the fronts, tables that any column sorts, the price of a look on a slider, "
+              "[The page](report.html) has the fronts, tables that any column sorts, the price of a look on a slider, "
               "and what each way looked at in the same cycles; [leaderboard.jsonl](leaderboard.jsonl) a row for each "
               "way, place, and seed or block. How it works, and how to join: [the arena](../../arena.md).",
               f"    {made['command']}"]

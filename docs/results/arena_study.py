@@ -18,7 +18,8 @@ NAME, STUDY = "arena", "arena_worlds"
 LOGS = ("scitos-g5-24-ultrasound.csv.gz", "freiburg-079.carmen.log.gz")
 READ = "sena-2006.rawlog"  # too short to learn on
 CLAIMS = ("temporl", "amrl", "timing", "tacos")
-FILES = ("index.html", "standings.csv", "ranks.csv", "leaderboard.jsonl")
+FILES = {"index.html": "report.html", "standings.csv": "standings.csv", "ranks.csv": "ranks.csv",
+         "leaderboard.jsonl": "leaderboard.jsonl"}  # what it writes: what it is called here
 PRICE = "0.5"
 
 
@@ -42,8 +43,8 @@ def collect(made: Path, study: Path, target: Path, spent: dict[str, int]) -> Non
     import attnlab
     from attnlab.tables.csvs import csv_bytes
     target.mkdir(parents=True, exist_ok=True)
-    for name in FILES:
-        shutil.copy(made / name, target / name)
+    for name, kept in FILES.items():  # in the site a folder's index.html is its README
+        shutil.copy(made / name, target / kept)
     loaded = attnlab.load(study)
     (target / "claims.csv").write_bytes(csv_bytes(("claims", "claim", "title", "world", "verdict"), asked(loaded)))
     told = json.loads((made / "leaderboard.jsonl").read_text().splitlines()[0])["made"]

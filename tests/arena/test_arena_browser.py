@@ -29,7 +29,7 @@ document.getElementById("told").textContent = JSON.stringify(told);
 
 
 def test_columns_sort_and_the_slider_scores_the_same_runs_again(browser, tmp_path):
-    page = (RESULTS / "index.html").read_text()
+    page = (RESULTS / "report.html").read_text()
     (tmp_path / "p.html").write_text(page.replace("</body>", PROBE % (PRICE, PLACE, PLACE) + "</body>"))
     out, err = browser("--dump-dom", (tmp_path / "p.html").as_uri())
     match = re.search(r'<pre id="told">(.*?)</pre>', out, re.DOTALL)

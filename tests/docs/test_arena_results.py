@@ -102,7 +102,7 @@ def test_no_two_ways_have_equal_results(board):
 
 
 def test_the_page_needs_no_network_and_knows_dark_and_small_screens():
-    text = (HERE / "index.html").read_text()
+    text = (HERE / "report.html").read_text()
     assert "prefers-color-scheme: dark" in text and "width=device-width" in text
     assert "src=" not in text and "https://" not in text
     assert text.count("<figure>") == 6  # what was looked at: two logs, four worlds

@@ -39,6 +39,11 @@ def test_every_page_is_in_the_menu(site_pages):
     assert menu == written | set(site_pages.PAGES) | books
 
 
+def test_no_page_stands_in_the_way_of_another():
+    """In the site a folder's README.md becomes its index.html."""
+    assert not [page for page in (ROOT / "docs").rglob("index.html") if page.with_name("README.md").exists()]
+
+
 def test_it_builds_without_a_warning(tmp_path):
     pytest.importorskip("mkdocs")
     done = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "-q", "-d", str(tmp_path / "site")],
