@@ -24,6 +24,7 @@ from attnlab.toys.grids import play_grid
 from attnlab.toys.patients import play_patients
 
 FILES = ("temporl", "amrl", "timing", "values")  # claims, in conf/claims/toys
+DIGITS = ".9g"
 HEAD = ("toy", "learner", "seed", "quantity", "value")
 GRID_EPISODES, CHAIN_EPISODES, PATIENT_EPISODES, LOOKS = 10_000, 700, 200, 20_000
 
@@ -68,12 +69,13 @@ def play(seeds: Sequence[int], jobs: int, short: int = 1) -> Told:
     with ProcessPoolExecutor(jobs) as pool:
         playing = [pool.submit(task.play, seed, max(1, task.length // short)) for task, seed in asked]
         for (task, seed), future in zip(asked, playing, strict=True):
-            found.setdefault((task.toy, task.way), {})[seed] = future.result()
+            found.setdefault((task.toy, task.way), {})[seed] = {  # as the table keeps them: it is what is judged
+                name: float(f"{value:{DIGITS}}") for name, value in future.result().items()}
     return found
 
 
 def as_csv(told: Told) -> bytes:
-    return csv_bytes(HEAD, ([toy, way, seed, name, f"{value:.9g}"] for (toy, way), seeds in told.items()
+    return csv_bytes(HEAD, ([toy, way, seed, name, f"{value:{DIGITS}}"] for (toy, way), seeds in told.items()
                             for seed, of in seeds.items() for name, value in of.items()))
 
 
