@@ -1,7 +1,6 @@
 """Parts that are there but not chosen change no number of a study, and cost it nothing."""
 
 import hashlib
-import time
 
 import pytest
 
@@ -47,23 +46,3 @@ def test_composed_of_litman_is_litman_to_the_bit():
     assert repr(numbers(run(curiosity="composed", **STUDY))) == repr(numbers(run(curiosity="litman", **STUDY)))
     window = run(curiosity={"name": "novelty_window", "length": 10}, **STUDY)
     assert repr(numbers(window)) == repr(numbers(run(curiosity="litman", **STUDY)))
-
-
-@pytest.mark.long
-def test_the_checks_of_parts_cost_little(monkeypatch):
-    """Checking at the end of an episode what every part gave takes a few hundredths of the run; best of seven, turn
-    about, so that a busy machine slows both."""
-    from attnlab.results import record
-    times = {True: [], False: []}
-    real = record.check_log, record.check_commands
-    run(max_cycles=1150)  # compiled, imported
-    for _ in range(7):
-        for checked in (True, False):
-            for name, check in zip(("check_log", "check_commands"), real, strict=True):
-                monkeypatch.setattr(record, name, check if checked else lambda _: None)
-            began = time.process_time()
-            run(train_episodes=20, validation_episodes=5, max_cycles=1150, record="none")
-            times[checked].append(time.process_time() - began)
-    ratio = min(times[True]) / min(times[False])
-    print(f"with checks / without: {ratio:.3f}")
-    assert ratio < 1.05
