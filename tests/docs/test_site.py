@@ -79,7 +79,8 @@ def test_what_the_first_pages_tell_to_type(attnlab, tmp_path):
                          .replace("outputs/first_look/RUN", str(runs[0])) for a in arguments]
             arguments = ["1" if before == "--episode" else "0" if before == "--from" else a
                          for before, a in zip(["", *arguments], arguments, strict=False)]
-            if arguments[-1].endswith(".mp4") and importlib.util.find_spec("imageio_ffmpeg") is None:
+            needs = {"imageio_ffmpeg": arguments[-1].endswith(".mp4"), "rerun": "--rerun" in arguments}
+            if any(used and importlib.util.find_spec(name) is None for name, used in needs.items()):
                 continue
         done = attnlab(*arguments, module=module)
         assert done.returncode == 0, f"{line}: {done.stderr[-500:]}"
