@@ -119,12 +119,14 @@ def test_ctrl_c_twice_and_at_once(tmp_path):
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 130 and "Traceback" not in err, err
-    early = begun(tmp_path, *SHORT)
-    time.sleep(0.1)
-    early.send_signal(signal.SIGINT)
-    _, err = early.communicate(timeout=60)
-    if "Could not import runpy" not in err:  # on a busy machine Python itself has not begun by then
-        assert early.returncode in (130, -signal.SIGINT) and "attnlab" not in err.replace("attnlab: stopped", ""), err
+    for _ in range(5):
+        early = begun(tmp_path, *SHORT)
+        time.sleep(0.1)
+        early.send_signal(signal.SIGINT)
+        _, err = early.communicate(timeout=60)
+        if "Could not import runpy" not in err:  # else Python itself had not begun by then: once more
+            break
+    assert early.returncode in (130, -signal.SIGINT) and "attnlab" not in err.replace("attnlab: stopped", ""), err
 
 
 @pytest.mark.parametrize(("line", "says"), [
